@@ -1,0 +1,43 @@
+"""From one config file to a report: crumple, measure, gather, fit, draw, write.
+
+    snakemake -j2                                      config/config.yaml
+    snakemake -j2 --configfile config/thesis.yaml      another study
+
+Everything a study makes lies in results/NAME, NAME being `study.name` of its config.
+"""
+
+import os
+
+# One thread per job, -j says how many jobs: numerical libraries must neither oversubscribe the
+# cores nor change the order of their sums with the number of them.
+for variable in ("OMP", "MKL", "OPENBLAS", "NUMBA"):
+    os.environ[f"{variable}_NUM_THREADS"] = "1"
+# MKL: the fastest code of this machine, and the same bits in every run on it. COMPATIBLE would
+# give the same bits on other machines too, but takes 2.5 times as long to factorise.
+os.environ.setdefault("MKL_CBWR", "AUTO")
+
+# A user's config replaces the default one; merged, the two would make a third that nobody wrote.
+if not workflow.configfiles:
+    configfile: "config/config.yaml"
+
+
+report: "workflow/report/workflow.rst"
+
+
+include: "workflow/rules/common.smk"
+include: "workflow/rules/realisations.smk"
+include: "workflow/rules/results.smk"
+
+
+localrules:
+    study,
+
+
+rule study:
+    default_target: True
+    input:
+        rules.report.output,
+        rules.tables.output,
+        FIGURE_FILES,
+    message:
+        f"study {STUDY.study.name}: see {RESULTS}/report.html"

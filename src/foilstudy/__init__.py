@@ -1,0 +1,27 @@
+"""Stiffness of crumpled foil cylinders: crumple, measure, gather, fit, report.
+
+Heavy modules load on first use, so that ``import foilstudy`` stays cheap.
+"""
+
+from importlib import import_module
+from importlib.metadata import version
+
+__version__ = version("foilstudy")
+
+_LAZY = {
+    "ConfigError": "foilstudy.config",
+    "StudyConfig": "foilstudy.config",
+    "load_config": "foilstudy.config",
+    "crumple": "foilstudy.realisation",
+    "gather": "foilstudy.cube",
+    "open_cube": "foilstudy.cube",
+    "respond": "foilstudy.realisation",
+}
+
+__all__ = ["__version__", *sorted(_LAZY)]
+
+
+def __getattr__(name: str):
+    if name in _LAZY:
+        return getattr(import_module(_LAZY[name]), name)
+    raise AttributeError(f"module 'foilstudy' has no attribute {name!r}")

@@ -1,0 +1,41 @@
+"""The study configuration: typed model, defaults, cells of the sweep and tasks of the jobs.
+
+The model is the one source of the defaults, of ``config/schema.json`` and of the reference page
+``config/README.md``; ``python -m foilstudy.config`` writes both.
+"""
+
+from .._errors import ConfigError
+from .load import load_config
+from .model import Cell, StudyConfig
+from .sections import (
+    Dynamics,
+    Imperfection,
+    Material,
+    Mesh,
+    Relaxation,
+    Report,
+    Sheet,
+    Stiffness,
+    Study,
+    Sweep,
+)
+from .tasks import CrumpleTask, ResponseTask
+
+__all__ = [
+    "Cell",
+    "ConfigError",
+    "CrumpleTask",
+    "Dynamics",
+    "Imperfection",
+    "Material",
+    "Mesh",
+    "Relaxation",
+    "Report",
+    "ResponseTask",
+    "Sheet",
+    "Stiffness",
+    "Study",
+    "StudyConfig",
+    "Sweep",
+    "load_config",
+]

@@ -1,0 +1,289 @@
+"""The whole study: sections, the checks that span them, the cells of the sweep."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from pydantic import Field, model_validator
+
+from .._errors import ConfigError
+from .sections import (
+    Dynamics,
+    Imperfection,
+    Material,
+    Mesh,
+    Relaxation,
+    Report,
+    Section,
+    Sheet,
+    Stiffness,
+    Study,
+    Sweep,
+)
+from .tasks import CrumpleTask, ResponseTask
+
+__all__ = ["Cell", "StudyConfig", "overlength_id", "thickness_id"]
+
+# Fewer elements cannot carry the first buckling waves.
+ELEMENTS_AROUND_MIN = 24
+ELEMENTS_ALONG_MIN = 8
+# About 20 GB in the refined stiffness; reached only by a slip of the unit.
+ELEMENTS_MAX = 1_000_000
+# Beyond this ratio transverse shear matters and Kirchhoff-Love theory ends.
+THICKNESS_TO_RADIUS_MAX = 1 / 20
+
+
+def _plain(value: float) -> str:
+    """Number as part of a path: no dot, no exponent, three decimals at most."""
+    return f"{value:.3f}".rstrip("0").rstrip(".").replace(".", "p")
+
+
+def thickness_id(thickness_um: float) -> str:
+    """Path and wildcard id of a thickness in um, such as ``t500um`` or ``t12p5um``."""
+    return f"t{_plain(thickness_um)}um"
+
+
+def overlength_id(reference_height_mm: float) -> str:
+    """Path and wildcard id of a reference height in mm, such as ``h170mm`` or ``h167p5mm``."""
+    return f"h{_plain(reference_height_mm)}mm"
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One realisation of the sweep.
+
+    Attributes
+    ----------
+    thickness_um : float
+        Foil thickness in um.
+    reference_height_mm : float
+        Height of the uncrumpled cylinder in mm.
+    overlength_percent : float
+        Excess of the reference height over the gap height, in per cent of the gap height.
+    seed : int
+        Seed of the random imperfection.
+    """
+
+    thickness_um: float
+    reference_height_mm: float
+    overlength_percent: float
+    seed: int
+
+    @property
+    def thickness_id(self) -> str:
+        """Id of the thickness in paths and wildcards."""
+        return thickness_id(self.thickness_um)
+
+    @property
+    def overlength_id(self) -> str:
+        """Id of the overlength in paths and wildcards, made from the reference height."""
+        return overlength_id(self.reference_height_mm)
+
+
+def _default_material() -> Material:
+    return Material.model_validate({})
+
+
+class StudyConfig(Section):
+    """Configuration of a study."""
+
+    study: Study = Field(default_factory=Study, description="Identity of the study.")
+    sheet: Sheet = Field(
+        default_factory=Sheet, description="Cylinder of foil and the gap it must fit."
+    )
+    material: Material = Field(
+        default_factory=_default_material, description="Material of the foil."
+    )
+    sweep: Sweep = Field(description="Parameter grid.")
+    imperfection: Imperfection = Field(
+        default_factory=Imperfection, description="Random imperfection."
+    )
+    mesh: Mesh = Field(default_factory=Mesh, description="Discretisation.")
+    relaxation: Relaxation = Field(default_factory=Relaxation, description="Dynamic relaxation.")
+    stiffness: Stiffness = Field(default_factory=Stiffness, description="Static stiffness.")
+    dynamics: Dynamics = Field(default_factory=Dynamics, description="Dynamic stiffness.")
+    report: Report = Field(default_factory=Report, description="Report page.")
+
+    @model_validator(mode="after")
+    def _check_across_sections(self) -> StudyConfig:
+        problems = list(self._height_problems()) or list(self._mesh_problems())
+        problems += self._thickness_problems()
+        problems += _duplicates("sweep.thickness_um", self.sweep.thickness_um, thickness_id)
+        if self.sweep.reference_height_mm is not None:
+            problems += _duplicates(
+                "sweep.reference_height_mm", self.sweep.reference_height_mm, overlength_id
+            )
+        if self.sweep.overlength_percent is not None:
+            problems += _duplicates(
+                "sweep.overlength_percent",
+                self.sweep.overlength_percent,
+                lambda percent: overlength_id(self._reference_height_mm(percent)),
+            )
+        if problems:
+            raise ValueError("\n".join(problems))
+        return self
+
+    def _height_problems(self) -> Iterator[str]:
+        gap = self.sheet.gap_height_mm
+        for i, height in enumerate(self.sweep.reference_height_mm or ()):
+            if height <= gap:
+                yield (
+                    f"sweep.reference_height_mm[{i}] is {height:g} mm, not above "
+                    f"sheet.gap_height_mm ({gap:g} mm), so nothing would crumple; use a height "
+                    "above the gap."
+                )
+
+    def _mesh_problems(self) -> Iterator[str]:
+        size = self.mesh.element_size_mm
+        circumference = math.pi * self.sheet.diameter_mm
+        heights = self.reference_heights_mm
+        around, along = round(circumference / size), round(heights[0] / size)
+        finest = min(circumference / ELEMENTS_AROUND_MIN, heights[0] / ELEMENTS_ALONG_MIN)
+        if around < ELEMENTS_AROUND_MIN or along < ELEMENTS_ALONG_MIN:
+            yield (
+                f"mesh.element_size_mm is {size:g} mm, too coarse: it leaves {around} elements "
+                f"around the circumference (at least {ELEMENTS_AROUND_MIN}) and {along} along the "
+                f"shortest cylinder (at least {ELEMENTS_ALONG_MIN}); use {_floor(finest)} mm or "
+                "less."
+            )
+        elements = circumference * heights[-1] / size**2
+        if elements > ELEMENTS_MAX:
+            coarser = math.sqrt(circumference * heights[-1] / ELEMENTS_MAX)
+            yield (
+                f"mesh.element_size_mm is {size:g} mm, which makes {elements:.2g} elements on the "
+                f"longest cylinder (at most {ELEMENTS_MAX:g}); use {coarser:.2g} mm or more, and "
+                "check that the value is in mm."
+            )
+
+    def _thickness_problems(self) -> Iterator[str]:
+        limit = 1e3 * self.sheet.diameter_mm / 2 * THICKNESS_TO_RADIUS_MAX
+        for i, thickness in enumerate(self.sweep.thickness_um):
+            if thickness > limit:
+                yield (
+                    f"sweep.thickness_um[{i}] is {thickness:g} um, more than 1/20 of the radius, "
+                    f"where thin-shell theory ends; use {limit:g} um or less, and check that the "
+                    "value is in um."
+                )
+
+    def _reference_height_mm(self, overlength_percent: float) -> float:
+        # Rounded to the picometre: 130 * 1.3 is 169, not 169.00000000000003.
+        return round(self.sheet.gap_height_mm * (1 + overlength_percent / 100), 9)
+
+    @cached_property
+    def _heights_and_overlengths(self) -> tuple[tuple[float, float], ...]:
+        gap = self.sheet.gap_height_mm
+        if self.sweep.reference_height_mm is not None:
+            heights = sorted(self.sweep.reference_height_mm)
+            return tuple((height, 100 * (height - gap) / gap) for height in heights)
+        overlengths = sorted(self.sweep.overlength_percent or ())
+        return tuple((self._reference_height_mm(percent), percent) for percent in overlengths)
+
+    @property
+    def thicknesses_um(self) -> tuple[float, ...]:
+        """Thicknesses of the sweep in um, ascending."""
+        return tuple(sorted(self.sweep.thickness_um))
+
+    @property
+    def reference_heights_mm(self) -> tuple[float, ...]:
+        """Reference heights of the sweep in mm, ascending, also where overlengths were given."""
+        return tuple(height for height, _ in self._heights_and_overlengths)
+
+    @property
+    def overlengths_percent(self) -> tuple[float, ...]:
+        """Overlengths of the sweep in per cent, ascending, also where heights were given."""
+        return tuple(percent for _, percent in self._heights_and_overlengths)
+
+    @property
+    def seeds(self) -> tuple[int, ...]:
+        """Seeds of the realisations: 0, 1, 2, ..."""
+        return tuple(range(self.sweep.realisations))
+
+    def cells(self) -> tuple[Cell, ...]:
+        """All realisations, ordered by thickness, overlength and seed."""
+        return tuple(
+            Cell(thickness, height, percent, seed)
+            for thickness in self.thicknesses_um
+            for height, percent in self._heights_and_overlengths
+            for seed in self.seeds
+        )
+
+    @cached_property
+    def _cell_by_id(self) -> dict[tuple[str, str, int], Cell]:
+        return {(c.thickness_id, c.overlength_id, c.seed): c for c in self.cells()}
+
+    def cell(self, thickness_id: str, overlength_id: str, seed: int | str) -> Cell:
+        """Realisation with the given ids, as they stand in a path.
+
+        Raises
+        ------
+        ConfigError
+            If the sweep has no such realisation.
+        """
+        try:
+            return self._cell_by_id[thickness_id, overlength_id, int(seed)]
+        except (KeyError, ValueError):
+            first, last = self.cells()[0], self.cells()[-1]
+            raise ConfigError(
+                f"Study {self.study.name} has no realisation {thickness_id}/{overlength_id}/{seed}:"
+                f" its sweep runs from {first.thickness_id}/{first.overlength_id}/{first.seed} to "
+                f"{last.thickness_id}/{last.overlength_id}/{last.seed}; use one of its ids, or add "
+                "the value to the sweep."
+            ) from None
+
+    def crumple_task(self, cell: Cell) -> CrumpleTask:
+        """Everything that decides how a realisation crumples."""
+        return CrumpleTask(
+            sheet=self.sheet,
+            material=self.material,
+            imperfection=self.imperfection,
+            mesh=self.mesh,
+            relaxation=self.relaxation,
+            thickness_um=cell.thickness_um,
+            reference_height_mm=cell.reference_height_mm,
+            seed=cell.seed,
+        )
+
+    def response_task(self, cell: Cell) -> ResponseTask:
+        """Everything, beside the crumpled shape, that decides its stiffness."""
+        return ResponseTask(
+            sheet=self.sheet,
+            material=self.material,
+            stiffness=self.stiffness,
+            dynamics=self.dynamics,
+            thickness_um=cell.thickness_um,
+            reference_height_mm=cell.reference_height_mm,
+            seed=cell.seed,
+        )
+
+    def to_yaml(self) -> str:
+        """Full validated configuration as YAML, defaults included, for provenance."""
+        import yaml  # jobs that only read a task need no YAML
+
+        content = self.model_dump(mode="json", exclude_none=True)
+        return yaml.safe_dump(content, sort_keys=False, allow_unicode=True)
+
+
+def _duplicates(
+    path: str, values: Sequence[float], make_id: Callable[[float], str]
+) -> Iterator[str]:
+    first: dict[str, int] = {}
+    for i, value in enumerate(values):
+        j = first.setdefault(make_id(value), i)
+        if j == i:
+            continue
+        if values[j] == value:
+            yield f"{path}[{i}] repeats {path}[{j}] ({value:g}); remove one of them."
+        else:
+            yield (
+                f"{path}[{i}] ({value!r}) and {path}[{j}] ({values[j]!r}) are too close: both "
+                f"would be stored as {make_id(value)}; remove one, or set them 0.001 apart."
+            )
+
+
+def _floor(value: float) -> str:
+    """Value rounded down to three significant digits, so that it still satisfies an upper limit."""
+    scale = 10.0 ** (math.floor(math.log10(value)) - 2)
+    return f"{math.floor(value / scale) * scale:.3g}"

@@ -1,0 +1,310 @@
+"""The sections of a study configuration, with units in the key names and defaults in one place.
+
+The defaults are the published case (M. Bader, Structural Dynamics of Crumpled Thin Sheets,
+TU Delft, 2026). Validators raise complete sentences that name the key path, because the reader
+of the message looks at a YAML file, not at this code.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from difflib import get_close_matches
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+from ..materials import MATERIALS
+
+CORRELATION_LENGTH_DEFAULT_MM = 15.0
+CONSTANTS = ("youngs_modulus_mpa", "poisson_ratio", "density_kg_m3", "yield_stress_mpa")
+
+
+def unit_field(unit: str, description: str, default: Any = ..., **constraints: Any) -> Any:
+    """Field of a section with its unit recorded for the schema and the reference page."""
+    return Field(
+        default, description=description, json_schema_extra={"unit": unit}, **constraints
+    )
+
+
+class Section(BaseModel):
+    """Base of everything configured: immutable, no unknown key, no silent conversion."""
+
+    model_config = ConfigDict(strict=True, extra="forbid", frozen=True, allow_inf_nan=False)
+
+
+class Study(Section):
+    """Identity of the study."""
+
+    name: str = unit_field(
+        "id",
+        "Name of the study and of its folder `results/NAME`: "
+        "letters, digits, `_` and `-`, starting with a letter or digit.",
+        "study",
+        pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]*$",
+        max_length=64,
+    )
+
+
+class Sheet(Section):
+    """Cylinder of foil and the gap it is crumpled into."""
+
+    diameter_mm: float = unit_field(
+        "mm", "Diameter of the foil cylinder and of both end rings.", 200.0, gt=0, le=10_000
+    )
+    gap_height_mm: float = unit_field(
+        "mm", "Height between the end rings after crumpling.", 130.0, gt=0, le=10_000
+    )
+
+
+def _material_schema(schema: dict[str, Any]) -> None:
+    """Constants are required only where the name does not supply them."""
+    schema.pop("required", None)
+    schema["if"] = {"properties": {"name": {"enum": list(MATERIALS)}}}
+    schema["else"] = {"required": ["name", *CONSTANTS]}
+
+
+class Material(Section):
+    """Isotropic linear elastic foil material.
+
+    A known name fills the constants; any constant given beside it takes precedence. Another name
+    needs all four constants.
+    """
+
+    model_config = ConfigDict(json_schema_extra=_material_schema)
+
+    name: str = unit_field(
+        "text", "Name of a known material (see below), or any other name.", "FEP", min_length=1
+    )
+    youngs_modulus_mpa: float = unit_field("MPa", "Young's modulus.", gt=0, le=2e6)
+    poisson_ratio: float = unit_field("1", "Poisson's ratio.", gt=-1, le=0.5)
+    density_kg_m3: float = unit_field("kg/m3", "Density.", gt=0, le=30_000)
+    yield_stress_mpa: float = unit_field(
+        "MPa",
+        "Uniaxial yield stress; only for the reported share of the surface beyond yield.",
+        gt=0,
+        le=1e5,
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _fill_known_constants(cls, data: Any) -> Any:
+        if not isinstance(data, Mapping):
+            return data
+        name = data.get("name", cls.model_fields["name"].default)
+        # A name that is no text has its own error; missing constants would only hide it.
+        known = MATERIALS.get(name) if isinstance(name, str) and name else MATERIALS["FEP"]
+        if known is not None:
+            return {key: getattr(known, key) for key in CONSTANTS} | dict(data)
+        missing = [f"material.{key}" for key in CONSTANTS if key not in data]
+        if missing:
+            folded = {key.casefold(): key for key in MATERIALS}
+            close = get_close_matches(name.casefold(), folded, n=1)
+            hint = f"did you mean {folded[close[0]]}? " if close else ""
+            raise ValueError(
+                f"material.name is {name!r}, which is not a known material, and "
+                f"{', '.join(missing)} {'is' if len(missing) == 1 else 'are'} missing; {hint}"
+                f"use one of {', '.join(MATERIALS)}, or give all four constants."
+            )
+        return data
+
+
+Thickness = Annotated[float, Field(ge=0.1, le=10_000)]
+Height = Annotated[float, Field(gt=0, le=10_000)]
+Overlength = Annotated[float, Field(ge=0.01, le=1_000)]
+# Lax only in the container: YAML and JSON know lists, the frozen model holds tuples.
+_LIST = {"strict": False, "min_length": 1}
+
+
+class Sweep(Section):
+    """Parameter grid: every thickness with every height, each crumpled several times."""
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "oneOf": [{"required": ["reference_height_mm"]}, {"required": ["overlength_percent"]}]
+        }
+    )
+
+    thickness_um: tuple[Thickness, ...] = unit_field("list of um", "Foil thicknesses.", **_LIST)
+    reference_height_mm: tuple[Height, ...] | None = unit_field(
+        "list of mm",
+        "Heights of the uncrumpled cylinder, above the gap height. "
+        "Either this or `overlength_percent`.",
+        None,
+        **_LIST,
+    )
+    overlength_percent: tuple[Overlength, ...] | None = unit_field(
+        "list of %",
+        "Overlengths, 100 (reference height - gap height) / gap height. "
+        "Either this or `reference_height_mm`.",
+        None,
+        **_LIST,
+    )
+    realisations: int = unit_field(
+        "1",
+        "Random imperfections per thickness and height; their seeds are 0, 1, 2, ...",
+        6,
+        ge=1,
+        le=10_000,
+    )
+
+    @model_validator(mode="after")
+    def _exactly_one_height(self) -> Sweep:
+        given = (self.reference_height_mm is not None) + (self.overlength_percent is not None)
+        if given == 2:
+            raise ValueError(
+                "sweep.reference_height_mm and sweep.overlength_percent are both given, but one "
+                "follows from the other; remove one of them."
+            )
+        if given == 0:
+            raise ValueError(
+                "sweep has neither reference_height_mm nor overlength_percent; give one of them, "
+                "such as overlength_percent: [15, 30, 60]."
+            )
+        return self
+
+
+class Imperfection(Section):
+    """Random deviation from the perfect cylinder that decides where the foil buckles."""
+
+    kind: Literal["gaussian", "smoothed", "buckling_modes"] = unit_field(
+        "choice",
+        "`gaussian`: independent normal offsets; `smoothed`: the same with a correlation length; "
+        "`buckling_modes`: random combination of classical buckling modes.",
+        "gaussian",
+    )
+    amplitude_um: float = unit_field(
+        "um", "Standard deviation of the radial offset.", 10.0, gt=0, le=1e6
+    )
+    correlation_length_mm: float | None = unit_field(
+        "mm",
+        "Correlation length of a `smoothed` imperfection "
+        f"({CORRELATION_LENGTH_DEFAULT_MM:g} if left out); not for the other kinds.",
+        None,
+        gt=0,
+        le=10_000,
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _default_correlation_length(cls, data: Any) -> Any:
+        if (
+            isinstance(data, Mapping)
+            and data.get("kind") == "smoothed"
+            and data.get("correlation_length_mm") is None
+        ):
+            return dict(data) | {"correlation_length_mm": CORRELATION_LENGTH_DEFAULT_MM}
+        return data
+
+    @model_validator(mode="after")
+    def _correlation_only_if_smoothed(self) -> Imperfection:
+        if self.kind != "smoothed" and self.correlation_length_mm is not None:
+            raise ValueError(
+                f"imperfection.correlation_length_mm is given, but a {self.kind} imperfection has "
+                "no correlation length; remove it, or set imperfection.kind: smoothed."
+            )
+        return self
+
+
+class Mesh(Section):
+    """Discretisation of the foil."""
+
+    element_size_mm: float = unit_field(
+        "mm",
+        "Edge length of the elements; at least 24 fit around the cylinder and 8 along the "
+        "shortest one.",
+        5.0,
+        gt=0,
+        le=1_000,
+    )
+
+
+class Relaxation(Section):
+    """Dynamic relaxation: ramp of the moving ring, then relaxation to equilibrium."""
+
+    ramp_steps: int = unit_field(
+        "steps", "Steps in which the top ring closes the gap.", 2000, ge=10, le=10_000_000
+    )
+    relaxation_steps_max: int = unit_field(
+        "steps", "Most steps after the ramp; then `not_converged`.", 12000, ge=0, le=10_000_000
+    )
+    residual_tolerance: float = unit_field(
+        "1", "Free force norm over ring force norm, at equilibrium.", 1e-6, gt=0, lt=1
+    )
+    kinetic_energy_tolerance: float = unit_field(
+        "1", "Kinetic over internal energy, at equilibrium.", 1e-8, gt=0, lt=1
+    )
+    stabilisation: float = unit_field(
+        "1",
+        "Share of the first-order variation of the membrane strain within an element: "
+        "0 leaves the hourglass free, 1 locks thin foils.",
+        0.05,
+        ge=0,
+        le=1,
+    )
+    mass_scaling: Literal["spectral"] = unit_field(
+        "choice", "Fictitious mass that sets the stable step.", "spectral"
+    )
+    damping: Literal["adaptive"] = unit_field(
+        "choice", "Viscous damping from the Rayleigh quotient of the motion.", "adaptive"
+    )
+    history_interval: int = unit_field(
+        "steps", "Steps between two entries of the history.", 20, ge=1, le=1_000_000
+    )
+
+
+class Stiffness(Section):
+    """Static stiffness between the end rings."""
+
+    refinements: int = unit_field(
+        "1",
+        "Exact refinements of the crumpled shape, each halving the elements, for the mesh error.",
+        1,
+        ge=0,
+        le=2,
+    )
+
+
+class Dynamics(Section):
+    """Dynamic stiffness between the end rings."""
+
+    cutoff_hz: float = unit_field(
+        "Hz", "Free modes up to this frequency are kept.", 1000.0, gt=0, le=1e6
+    )
+    shown_min_hz: float = unit_field("Hz", "Lowest frequency computed.", 1.0, gt=0, le=1e6)
+    shown_max_hz: float = unit_field(
+        "Hz", "Highest frequency computed, below the cut-off.", 800.0, gt=0, le=1e6
+    )
+    frequencies: int = unit_field(
+        "1", "Number of frequencies, spaced logarithmically.", 200, ge=2, le=100_000
+    )
+    damping_percent: float = unit_field("%", "Modal damping ratio.", 5.0, gt=0, lt=100)
+    eigenfrequencies: int = unit_field(
+        "1", "Number of eigenfrequencies with both rings clamped.", 20, ge=1, le=1000
+    )
+
+    @model_validator(mode="after")
+    def _band_below_cutoff(self) -> Dynamics:
+        problems = []
+        if self.shown_min_hz >= self.shown_max_hz:
+            problems.append(
+                f"dynamics.shown_min_hz is {self.shown_min_hz:g} Hz, which is not below "
+                f"dynamics.shown_max_hz ({self.shown_max_hz:g} Hz); lower the first or raise the "
+                "second."
+            )
+        if self.cutoff_hz < self.shown_max_hz:
+            problems.append(
+                f"dynamics.cutoff_hz is {self.cutoff_hz:g} Hz, below the shown band, which ends at "
+                f"dynamics.shown_max_hz ({self.shown_max_hz:g} Hz); raise the cut-off (to "
+                f"{1.25 * self.shown_max_hz:g} Hz, say) or lower shown_max_hz."
+            )
+        if problems:
+            raise ValueError("\n".join(problems))
+        return self
+
+
+class Report(Section):
+    """The report page."""
+
+    title: str = unit_field(
+        "text", "Title of the report.", "Stiffness of crumpled foil", min_length=1, max_length=200
+    )

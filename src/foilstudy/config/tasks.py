@@ -1,0 +1,53 @@
+"""What one job needs to know, and nothing else.
+
+A task is stored as a parameter of its job, so a job runs again exactly when something in its task
+has changed: no report title, no other cell of the sweep.
+"""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from .sections import (
+    Dynamics,
+    Height,
+    Imperfection,
+    Material,
+    Mesh,
+    Relaxation,
+    Section,
+    Sheet,
+    Stiffness,
+    Thickness,
+)
+
+__all__ = ["CrumpleTask", "ResponseTask"]
+
+
+class _Task(Section):
+    sheet: Sheet
+    material: Material
+    thickness_um: Thickness
+    reference_height_mm: Height
+    seed: int = Field(ge=0)
+
+    @property
+    def overlength_percent(self) -> float:
+        """Overlength in per cent of the gap height."""
+        gap = self.sheet.gap_height_mm
+        return 100.0 * (self.reference_height_mm - gap) / gap
+
+
+class CrumpleTask(_Task):
+    """Crumple one realisation: one thickness, one reference height, one seed."""
+
+    imperfection: Imperfection
+    mesh: Mesh
+    relaxation: Relaxation
+
+
+class ResponseTask(_Task):
+    """Static and dynamic stiffness of one crumpled realisation."""
+
+    stiffness: Stiffness
+    dynamics: Dynamics

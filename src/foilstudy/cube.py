@@ -1,0 +1,225 @@
+"""The cube: every realisation of a study in one NetCDF file."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from foilstudy.config import Cell, StudyConfig
+from foilstudy.dynamics import DEFINITIONS, frequency_grid
+from foilstudy.provenance import provenance
+from foilstudy.realisation.record import read_record
+from foilstudy.stiffness import DOF_NAMES
+from foilstudy.stiffness.directional import DIRECTIONS
+
+CONVENTION = "foilstudy cube 1"
+
+_CELL = ("thickness", "overlength", "seed")
+_MILLI = {"radial_displacement_min", "radial_displacement_max", "radial_displacement_rms"} | {
+    "element_size"
+}
+"""Lengths that the records hold in m and the cube in mm."""
+
+
+def _variables(study: StudyConfig) -> dict[str, tuple[tuple[str, ...], str, str]]:
+    """Dimensions beyond the cell, unit and meaning of every variable per realisation."""
+    directional = ("direction",)
+    dynamic = ("definition", "direction", "frequency")
+    finest = "the same shape on the finest exactly refined mesh"
+    return {
+        "static_stiffness": (directional, "N/m", "static stiffness, other motions held"),
+        "static_stiffness_free": (directional, "N/m", "static stiffness, other motions free"),
+        "static_stiffness_converged": (directional, "N/m", f"static stiffness, {finest}"),
+        "static_stiffness_mesh_error": (
+            directional,
+            "N/m",
+            "estimated mesh error of static_stiffness_converged: step from the next coarser mesh",
+        ),
+        "prestressed_stiffness": (
+            directional,
+            "N/m",
+            "static stiffness at the stressed equilibrium, other motions held",
+        ),
+        "interface_stiffness": (
+            ("interface_dof", "interface_dof_in"),
+            "N/m, N, N m",
+            "stress-free interface stiffness, rotations in rad",
+        ),
+        "dynamic_stiffness_re": (dynamic, "N/m", "dynamic stiffness, real part"),
+        "dynamic_stiffness_im": (dynamic, "N/m", "dynamic stiffness, imaginary part"),
+        "eigenfrequency": (("mode",), "Hz", "eigenfrequency, rings clamped"),
+        "first_eigenfrequency": ((), "Hz", "first eigenfrequency, rings clamped"),
+        "membrane_energy": ((), "J", "membrane energy"),
+        "bending_energy": ((), "J", "bending energy"),
+        "stabilisation_energy": ((), "J", "stabilisation energy"),
+        "reaction_force": ((), "N", "axial force of the crumpled foil on the top ring"),
+        "radial_displacement_min": ((), "mm", "smallest radial displacement"),
+        "radial_displacement_max": ((), "mm", "largest radial displacement"),
+        "radial_displacement_rms": ((), "mm", "root mean square radial displacement"),
+        "equilibrium_residual": ((), "1", "force on the free foil over force on the rings"),
+        "kinetic_energy_ratio": ((), "1", "kinetic over strain energy at the end"),
+        "negative_eigenvalues": ((), "1", "negative eigenvalues of the tangent at the end"),
+        "steps": ((), "1", "pseudo-time steps, ramp included"),
+        "element_size": ((), "mm", "element size of the crumpled mesh"),
+        "beyond_yield_share": ((), "1", "share of the surface beyond the yield stress"),
+        "self_crossing_share": ((), "1", "share of the surface crossed by another part"),
+        "retained_modes": ((), "1", "free-free modes kept by the reduction"),
+        "seconds_crumple": ((), "s", "time of crumpling"),
+        "seconds_static": ((), "s", "time of the static stiffness"),
+        "seconds_dynamic": ((), "s", "time of the dynamic stiffness"),
+        "peak_memory": ((), "MB", "peak memory of the response job"),
+    }
+
+
+def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
+    """Collect the records of a study into a cube and write it.
+
+    Parameters
+    ----------
+    study : StudyConfig
+    results : Path
+        Folder with ``realisations/THICKNESS/OVERLENGTH/SEED/`` and ``cylinder.nc``.
+    path : Path
+        The cube; it appears only when it is complete.
+
+    Returns
+    -------
+    xarray.Dataset
+        As written.
+    """
+    coordinates = _coordinates(study)
+    variables = _variables(study)
+    sizes = {name: len(values) for name, (_, values, _) in coordinates.items()}
+    cells = tuple(sizes[name] for name in _CELL)
+    data = {
+        name: np.full(cells + tuple(sizes[d] for d in dims), np.nan)
+        for name, (dims, _, _) in variables.items()
+    }
+    status = np.full(cells, "", dtype=object)
+    message = np.full(cells, "", dtype=object)
+    position = {cell: index for index, cell in zip(np.ndindex(cells), study.cells(), strict=True)}
+    for cell, index in position.items():
+        values, status[index], message[index] = _read_cell(results, cell)
+        for name in data.keys() & values.keys():
+            data[name][index] = values[name] * (1e3 if name in _MILLI else 1.0)
+    cube = xr.Dataset(
+        {
+            name: (_CELL + dims, data[name], {"units": units, "long_name": text})
+            for name, (dims, units, text) in variables.items()
+        },
+        coords={
+            name: (dim, values, attributes)
+            for name, (dim, values, attributes) in coordinates.items()
+        },
+        attrs={
+            "Conventions": CONVENTION,
+            "title": study.report.title,
+            "study": study.study.name,
+            "config": study.to_yaml(),
+            **provenance(),
+        },
+    )
+    bounds, _ = read_record(results / "cylinder.nc")
+    cube["cylinder_stiffness"] = (
+        ("thickness", "overlength", "direction"),
+        bounds["cylinder_stiffness"],
+        {"units": "N/m", "long_name": "static stiffness of the uncrumpled cylinder"},
+    )
+    cube["status"] = (_CELL, status, {"units": "1", "long_name": "outcome of the realisation"})
+    cube["message"] = (_CELL, message, {"units": "1", "long_name": "reason of the status"})
+    _write(cube, path)
+    return cube
+
+
+def _coordinates(study: StudyConfig) -> dict[str, tuple[str, np.ndarray, dict]]:
+    options = study.dynamics
+    grid = frequency_grid(options.shown_min_hz, options.shown_max_hz, options.frequencies)
+
+    def coordinate(dim, values, units, text):
+        return dim, np.asarray(values), {"units": units, "long_name": text}
+
+    names = {"units": "1", "long_name": "ring motion"}
+    return {
+        "thickness": coordinate("thickness", study.thicknesses_um, "um", "foil thickness"),
+        "overlength": coordinate("overlength", study.overlengths_percent, "%", "overlength"),
+        "reference_height": coordinate(
+            "overlength", study.reference_heights_mm, "mm", "height of the uncrumpled cylinder"
+        ),
+        "seed": coordinate("seed", study.seeds, "1", "realisation"),
+        "direction": coordinate("direction", DIRECTIONS, "1", "direction of motion and force"),
+        "definition": coordinate("definition", DEFINITIONS, "1", "dynamic stiffness definition"),
+        "frequency": coordinate("frequency", grid, "Hz", "frequency"),
+        "interface_dof": ("interface_dof", np.asarray(DOF_NAMES), names),
+        "interface_dof_in": ("interface_dof_in", np.asarray(DOF_NAMES), names),
+        "mode": coordinate(
+            "mode", np.arange(1, options.eigenfrequencies + 1), "1", "mode number"
+        ),
+    }
+
+
+def _read_cell(results: Path, cell: Cell) -> tuple[dict[str, np.ndarray], str, str]:
+    folder = results / "realisations" / cell.thickness_id / cell.overlength_id / str(cell.seed)
+    crumpled, _ = read_record(folder / "crumple.nc")
+    responded, attributes = read_record(folder / "response.nc")
+    status, message = attributes["status"], attributes["message"]
+    if status not in ("converged", "not_converged"):
+        return {}, status, message  # whatever the crumple holds, the cell has failed
+    return crumpled | responded, status, message
+
+
+def _write(cube: xr.Dataset, path: Path) -> None:
+    encoding = {
+        name: {"zlib": True, "shuffle": True, "complevel": 4}
+        for name, variable in cube.data_vars.items()
+        if variable.dtype.kind == "f"
+    }
+    path.parent.mkdir(parents=True, exist_ok=True)
+    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
+    try:
+        cube.to_netcdf(partial, engine="netcdf4", encoding=encoding)
+        os.replace(partial, path)
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+def open_cube(path: str | Path) -> xr.Dataset:
+    """Open a cube with its dynamic stiffness as one complex variable.
+
+    Parameters
+    ----------
+    path : str or Path
+        ``results/NAME/cube.nc``.
+
+    Returns
+    -------
+    xarray.Dataset
+        Loaded; ``dynamic_stiffness`` replaces its real and imaginary parts.
+
+    Raises
+    ------
+    ValueError
+        If there is no such file, or if it is not a cube of this package.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise ValueError(f"{path} does not exist; run the study first or correct the path.")
+    try:
+        with xr.open_dataset(path, engine="netcdf4") as file:
+            cube = file.load()
+    except (OSError, ValueError) as error:
+        raise ValueError(
+            f"{path} is not a NetCDF file that can be read ({error}); give the cube.nc of a study."
+        ) from error
+    if cube.attrs.get("Conventions") != CONVENTION:
+        raise ValueError(
+            f"{path} is a NetCDF file but not a cube of foilstudy; give the cube.nc of a study, "
+            "not the record of one realisation."
+        )
+    real, imaginary = cube["dynamic_stiffness_re"], cube["dynamic_stiffness_im"]
+    cube["dynamic_stiffness"] = (real + 1j * imaginary).assign_attrs(
+        units="N/m", long_name="dynamic stiffness"
+    )
+    return cube.drop_vars(["dynamic_stiffness_re", "dynamic_stiffness_im"])

@@ -1,0 +1,8 @@
+"""The figures of a study: a registry, and functions that draw and save them.
+
+Importing this package does not import matplotlib, so that a workflow can read `FIGURES` cheaply.
+"""
+
+from foilstudy.figures.registry import FIGURES, FigureSpec, draw_all, draw_figure, save
+
+__all__ = ["FIGURES", "FigureSpec", "draw_all", "draw_figure", "save"]

@@ -1,0 +1,206 @@
+"""Which figures a study has, what each needs, and how they are saved."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from importlib import import_module
+from pathlib import Path
+
+PNG_DPI = 150
+
+
+@dataclass(frozen=True)
+class FigureSpec:
+    """One figure of the study.
+
+    Attributes
+    ----------
+    title, caption : str
+        Plain text; the caption says what bands and lines mean.
+    module : str
+        Module of this package whose ``draw`` makes the figure.
+    needs : tuple of str
+        Inputs of ``draw``: ``cube`` (the open cube) and/or ``crumple_paths``.
+    options : mapping
+        Further keyword arguments of ``draw``.
+    """
+
+    title: str
+    caption: str
+    module: str
+    needs: tuple[str, ...]
+    options: Mapping[str, str] = field(default_factory=dict)
+
+    def draw(self, **inputs):
+        """Return the figure; `inputs` are the ones listed in `needs`."""
+        module = import_module(f"foilstudy.figures.{self.module}")
+        return module.draw(**{name: inputs[name] for name in self.needs}, **self.options)
+
+
+_STIFFNESS_CAPTION = (
+    "{} stiffness of the stress-free crumpled shape, other ring motions held, against overlength; "
+    "one panel per thickness. Dots with band: mean, smallest and largest of the realisations on "
+    "the mesh that was crumpled; open squares: mean of the same shapes on the refined mesh; "
+    "lines: this study's fit and the published fits; grey: the uncrumpled cylinder, an upper bound."
+)
+
+FIGURES: dict[str, FigureSpec] = {
+    "morphology": FigureSpec(
+        "Crumpled shapes",
+        "First realisation of every configuration, all to one scale, seen from slightly above. "
+        "Colour: radial displacement from the cylinder, on the published scale.",
+        "morphology",
+        ("crumple_paths",),
+    ),
+    "stiffness_axial": FigureSpec(
+        "Axial stiffness against overlength",
+        _STIFFNESS_CAPTION.format("Axial"),
+        "stiffness",
+        ("cube",),
+        {"direction": "axial"},
+    ),
+    "stiffness_radial": FigureSpec(
+        "Radial stiffness against overlength",
+        _STIFFNESS_CAPTION.format("Radial"),
+        "stiffness",
+        ("cube",),
+        {"direction": "radial"},
+    ),
+    "stiffness_map": FigureSpec(
+        "Stiffness over overlength and thickness",
+        "Filled contours: mean stiffness, interpolated between the simulated configurations "
+        "(dots). Dashed lines: the fitted power law, which is straight on logarithmic axes.",
+        "stiffness_map",
+        ("cube",),
+    ),
+    "fit_quality": FigureSpec(
+        "How well the power law holds",
+        "Top: stiffness of every realisation against the value of the fitted law. Bottom: their "
+        "ratio against overlength; the band holds 95 % of a normal scatter about the law. Dots "
+        "that leave the band together show where the law bends.",
+        "fit_quality",
+        ("cube",),
+    ),
+    "variability": FigureSpec(
+        "Scatter over random imperfections",
+        "Coefficient of variation of the stiffness per configuration, with its 95 % confidence "
+        "interval (modified McKay), against overlength. Line and band: linear regression and its "
+        "95 % confidence band.",
+        "variability",
+        ("cube",),
+    ),
+    "dynamic_stiffness": FigureSpec(
+        "Dynamic stiffness",
+        "Magnitude of the transfer stiffness (force on the held ring per motion of the other) "
+        "against frequency. Line and band: median, smallest and largest of the realisations. "
+        "Triangles at the left: mean static stiffness.",
+        "dynamic_stiffness",
+        ("cube",),
+    ),
+    "eigenfrequency_law": FigureSpec(
+        "First eigenfrequency against reference height",
+        "First eigenfrequency with both rings clamped. Small dots: realisations; large: mean; "
+        "line and band: fitted power law and its 95 % confidence band; dashed: the published "
+        "exponent, drawn through the middle of the data. Brackets: 95 % confidence interval.",
+        "eigenfrequency_law",
+        ("cube",),
+    ),
+    "seeds": FigureSpec(
+        "One configuration, different imperfections",
+        "The same thickness and overlength, crumpled from different random imperfections. "
+        "Colour: radial displacement from the cylinder.",
+        "seeds",
+        ("crumple_paths",),
+    ),
+    "history": FigureSpec(
+        "One crumpling history",
+        "Height, reaction force of the ring, energies and relative residual of one realisation "
+        "against step. The grey line marks the end of the ramp.",
+        "history",
+        ("crumple_paths",),
+    ),
+    "energy": FigureSpec(
+        "Strain energy of the crumpled sheets",
+        "Share of membrane, bending and stabilisation energy, mean of the realisations; above "
+        "each bar the strain energy. A large stabilisation share says that the mesh does not "
+        "resolve the ridges.",
+        "energy",
+        ("cube",),
+    ),
+}
+"""Figures of the study by id, in the order in which a report shows them."""
+
+
+def save(figure, stem) -> tuple[Path, Path]:
+    """Write ``<stem>.png`` and ``<stem>.svg``; the same figure always gives the same bytes.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+    stem : path without suffix; its folder is made if missing
+
+    Returns
+    -------
+    png, svg : Path
+    """
+    from foilstudy.figures.style import styled
+
+    stem = Path(stem)
+    stem.parent.mkdir(parents=True, exist_ok=True)
+    return tuple(
+        _save_one(styled(figure.savefig), stem.with_name(f"{stem.name}.{suffix}"), metadata)
+        for suffix, metadata in (("png", {"Software": None}), ("svg", {"Date": None}))
+    )
+
+
+def _save_one(savefig, path: Path, metadata: dict) -> Path:
+    temporary = path.with_name(f"{path.name}.tmp")
+    savefig(temporary, format=path.suffix[1:], dpi=PNG_DPI, metadata=metadata)
+    os.replace(temporary, path)
+    return path
+
+
+def draw_figure(figure_id: str, cube_path, crumple_paths: Iterable, stem) -> tuple[Path, Path]:
+    """Draw and save one figure.
+
+    Parameters
+    ----------
+    figure_id
+        A key of `FIGURES`.
+    cube_path : path of cube.nc
+        Not opened by a figure that does not need it.
+    crumple_paths : paths of crumple.nc files
+        Not opened by a figure that does not need them.
+    stem : path without suffix
+
+    Returns
+    -------
+    png, svg : Path
+
+    Raises
+    ------
+    KeyError
+        If there is no such figure.
+    """
+    if figure_id not in FIGURES:
+        raise KeyError(f"no figure {figure_id!r}: choose one of {', '.join(FIGURES)}")
+    spec = FIGURES[figure_id]
+    inputs = {"crumple_paths": tuple(crumple_paths)}
+    if "cube" not in spec.needs:
+        return save(spec.draw(**inputs), stem)
+    import xarray as xr
+
+    with xr.open_dataset(cube_path) as cube:
+        return save(spec.draw(cube=cube, **inputs), stem)
+
+
+def draw_all(cube_path, crumple_paths: Iterable, out_dir) -> list[Path]:
+    """Draw and save every figure as ``<out_dir>/<id>.png`` and ``.svg``; return the paths."""
+    crumple_paths = tuple(crumple_paths)
+    return [
+        path
+        for figure_id in FIGURES
+        for path in draw_figure(figure_id, cube_path, crumple_paths, Path(out_dir) / figure_id)
+    ]

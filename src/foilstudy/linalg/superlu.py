@@ -1,0 +1,29 @@
+"""Symmetric factorisation through SciPy's SuperLU."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.sparse as sparse
+from scipy.sparse.linalg import splu
+
+from foilstudy.linalg.errors import SolveError
+
+
+class SuperLUFactorisation:
+    """L U factors in symmetric mode; the signs of U's diagonal give the inertia."""
+
+    def __init__(self, matrix: sparse.csr_matrix):
+        try:
+            self._factor = splu(
+                matrix.tocsc(),
+                permc_spec="MMD_AT_PLUS_A",
+                diag_pivot_thresh=0.0,
+                options={"SymmetricMode": True},
+            )
+        except RuntimeError as error:
+            raise SolveError(f"the matrix cannot be factored: {error}") from error
+        self.negative_eigenvalues = int(np.sum(self._factor.U.diagonal() < 0))
+
+    def solve(self, rhs: np.ndarray) -> np.ndarray:
+        """Solve for one or several right-hand sides."""
+        return self._factor.solve(np.ascontiguousarray(rhs))

@@ -1,0 +1,273 @@
+"""Assemble ``report.html``: findings, figures, shapes, health and provenance on one page."""
+
+import base64
+import hashlib
+import os
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import jinja2
+import pandas as pd
+import xarray as xr
+import yaml
+
+from foilstudy.figures import FIGURES
+from foilstudy.figures.registry import PNG_DPI
+from foilstudy.reference import published
+from foilstudy.report import findings, numerals, viewer
+from foilstudy.report.health import assess
+
+TEMPLATES = Path(__file__).parent / "templates"
+
+SECTIONS = {
+    "stiffness": ("stiffness_axial", "stiffness_radial"),
+    "shapes": ("morphology", "seeds"),
+    "static": ("stiffness_map", "fit_quality"),
+    "variability": ("variability",),
+    "dynamic": ("dynamic_stiffness",),
+    "eigenfrequency": ("eigenfrequency_law",),
+    "health": ("energy", "history"),
+}
+"""Where each figure stands; one not named here follows the last of the results."""
+
+SVG_BYTES_MAX = 600_000
+"""A larger vector drawing is slower to show than its picture in dots."""
+
+CSS_PIXELS_PER_INCH = 96
+
+
+@dataclass(frozen=True)
+class ReportInputs:
+    """Everything that the report is made from.
+
+    Attributes
+    ----------
+    cube_path
+        The study's ``cube.nc``.
+    powerlaw_csv, variability_csv, eigenfrequency_csv, stiffness_summary_csv
+        The tables of the same cube.
+    figures_dir
+        Folder of ``<figure id>.png`` and ``.svg``; it may be empty.
+    crumple_paths
+        ``crumple.nc`` of the realisations; a handful is chosen for the 3-D view.
+    benchmarks_dir
+        Folder of the workflow's benchmark tables; None when there is none.
+    """
+
+    cube_path: Path
+    powerlaw_csv: Path
+    variability_csv: Path
+    eigenfrequency_csv: Path
+    stiffness_summary_csv: Path
+    figures_dir: Path
+    crumple_paths: Sequence[Path]
+    benchmarks_dir: Path | None = None
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A picture as it stands in the page."""
+
+    id: str
+    title: str
+    caption: str
+    source: str
+    width: int | None
+
+
+def write_report(inputs: ReportInputs, out_path: Path) -> Path:
+    """Write the self-contained report of a study.
+
+    Parameters
+    ----------
+    inputs
+        Cube, tables, figures and shapes of one study.
+    out_path
+        The page to write. It appears complete or not at all.
+
+    Returns
+    -------
+    Path
+        ``out_path``.
+
+    Raises
+    ------
+    FileNotFoundError
+        If the cube or a table is missing.
+    """
+    out_path = Path(out_path)
+    with xr.open_dataset(inputs.cube_path) as cube:
+        content = _content(inputs, cube, out_path.parent)
+    _write_atomically(_environment().get_template("report.html").render(content), out_path)
+    return out_path
+
+
+def _environment() -> jinja2.Environment:
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(TEMPLATES),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    for name in ("number", "nominal", "fixed", "percent", "duration", "plural", "stiffness"):
+        environment.filters[name] = getattr(numerals, name)
+    return environment
+
+
+def _content(inputs: ReportInputs, cube: xr.Dataset, folder: Path) -> dict:
+    powerlaw, summary, variability, eigenfrequency = (
+        pd.read_csv(path)
+        for path in (
+            inputs.powerlaw_csv,
+            inputs.stiffness_summary_csv,
+            inputs.variability_csv,
+            inputs.eigenfrequency_csv,
+        )
+    )
+    config = yaml.safe_load(cube.attrs.get("config", "")) or {}
+    health = assess(cube, inputs.benchmarks_dir)
+    directions = [str(d) for d in cube["direction"].values]
+    shapes = viewer.viewer_data(viewer.choose_shapes(inputs.crumple_paths))
+    script = (TEMPLATES / "viewer.js").read_text("utf-8")
+    return {
+        "title": config.get("report", {}).get("title", "Crumpled foil"),
+        "study": cube.attrs.get("study", ""),
+        "scope": _scope(cube, config),
+        "laws": findings.read_laws(powerlaw, summary),
+        "middle": findings.middle_of_sweep(summary),
+        "stiffness_words": findings.stiffness_findings(summary),
+        "prestress_words": findings.prestress_findings(cube),
+        "variability_words": findings.variability_findings(variability),
+        "dynamic_words": findings.dynamic_findings(cube),
+        "eigenfrequency_words": findings.eigenfrequency_findings(eigenfrequency, cube),
+        "bend_words": findings.bend_sentence(powerlaw),
+        "fit_words": findings.fit_findings(powerlaw),
+        "mesh_words": findings.mesh_sentence(health, _refinements(config), directions),
+        "shape_words": findings.shape_findings(cube, published()),
+        "health": health,
+        "health_words": findings.health_sentence(health),
+        "figures": _figures(inputs.figures_dir),
+        "viewer": shapes,
+        "gradient": _gradient(),
+        "style": (TEMPLATES / "report.css").read_text("utf-8"),
+        "script": script,
+        "script_hash": base64.b64encode(hashlib.sha256(script.encode()).digest()).decode(),
+        "config": cube.attrs.get("config", ""),
+        "provenance": _provenance(cube),
+        "citation": published().citation,
+        "files": _files(inputs, folder),
+    }
+
+
+def _scope(cube: xr.Dataset, config: dict) -> list[str]:
+    """Say in a few phrases what was simulated."""
+
+    def span(name: str, noun: str, unit: str) -> str:
+        values = cube[name].values
+        ends = numerals.nominal(float(values[0]))
+        if values.size > 1:
+            ends += f" to {numerals.nominal(float(values[-1]))}"
+        return f"{numerals.plural(values.size, noun)} ({ends} {unit})"
+
+    phrases = [
+        f"{span('thickness', 'thickness', 'µm')} × {span('overlength', 'overlength', '%')} × "
+        f"{numerals.plural(cube.sizes['seed'], 'seed')}"
+    ]
+    sheet, material = config.get("sheet", {}), config.get("material", {})
+    if sheet:
+        phrases.append(
+            f"cylinder {numerals.nominal(sheet['diameter_mm'])} mm in diameter, crumpled into a "
+            f"gap of {numerals.nominal(sheet['gap_height_mm'])} mm"
+        )
+    if material:
+        phrases.append(
+            f"{material['name']}, E = {numerals.nominal(material['youngs_modulus_mpa'])} MPa, "
+            f"ν = {numerals.nominal(material['poisson_ratio'])}"
+        )
+    if "mesh" in config:
+        phrases.append(f"elements of {numerals.nominal(config['mesh']['element_size_mm'])} mm")
+    return phrases
+
+
+def _refinements(config: dict) -> int:
+    return config.get("stiffness", {}).get("refinements", 1)
+
+
+def _figures(folder: Path) -> dict[str, list[Figure]]:
+    """Embed every figure there is, by section."""
+    stems = {path.stem for path in Path(folder).glob("*") if path.suffix in (".png", ".svg")}
+    placed = {stem: name for name, order in SECTIONS.items() for stem in order}
+    sections: dict[str, list[Figure]] = {name: [] for name in (*SECTIONS, "other")}
+    known = [stem for stem in placed if stem in stems]
+    for stem in known + sorted(stems - set(known)):
+        entry = FIGURES.get(stem)
+        sections[placed.get(stem, "other")].append(
+            Figure(
+                stem,
+                entry.title if entry else stem,
+                entry.caption if entry else "",
+                *_picture(Path(folder), stem),
+            )
+        )
+    return sections
+
+
+def _picture(folder: Path, stem: str) -> tuple[str, int | None]:
+    """Return the data address of a figure, and its width in CSS pixels where the file lacks it."""
+    vector, dots = folder / f"{stem}.svg", folder / f"{stem}.png"
+    if vector.exists() and (not dots.exists() or vector.stat().st_size <= SVG_BYTES_MAX):
+        return _data_address(vector.read_bytes(), "svg+xml"), None
+    content = dots.read_bytes()
+    # The first chunk of a PNG begins with its width in dots.
+    width = int.from_bytes(content[16:20], "big")
+    return _data_address(content, "png"), round(width * CSS_PIXELS_PER_INCH / PNG_DPI)
+
+
+def _data_address(content: bytes, kind: str) -> str:
+    return f"data:image/{kind};base64,{base64.b64encode(content).decode('ascii')}"
+
+
+def _gradient() -> str:
+    """CSS stops of the radial displacement colours, from inward to outward."""
+    return ", ".join("rgb({}, {}, {})".format(*rgb) for rgb in viewer.colour_table()[::17])
+
+
+def _provenance(cube: xr.Dataset) -> list[tuple[str, str]]:
+    return [
+        (name.replace("_", " "), str(value))
+        for name, value in cube.attrs.items()
+        if name != "config"
+    ]
+
+
+def _files(inputs: ReportInputs, folder: Path) -> list[tuple[str, str, str]]:
+    """Links to the files that the page was made from: text, relative address, content."""
+    described = [
+        (inputs.cube_path, "all numbers of all realisations (NetCDF-4)"),
+        (inputs.powerlaw_csv, "power laws, their uncertainty and the published ones"),
+        (inputs.stiffness_summary_csv, "static stiffness of every configuration"),
+        (inputs.variability_csv, "coefficients of variation"),
+        (inputs.eigenfrequency_csv, "exponents of the first eigenfrequency"),
+        (inputs.figures_dir, "the figures as PNG and SVG"),
+    ]
+    links = []
+    for path, meaning in described:
+        relative = Path(os.path.relpath(path, folder)).as_posix()
+        links.append((relative, jinja2.filters.do_urlencode(relative), meaning))
+    return links
+
+
+def _write_atomically(text: str, path: Path) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8") as file:
+            file.write(text)
+        os.chmod(temporary, 0o644)
+        os.replace(temporary, path)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise

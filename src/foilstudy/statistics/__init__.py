@@ -1,0 +1,32 @@
+"""Laws fitted to the cube, their uncertainty, and their comparison with published values."""
+
+from foilstudy.statistics.eigenfrequency import eigenfrequency_table
+from foilstudy.statistics.powerlaw import PowerLaw, fit_power_law, powerlaw_table, simulated_law
+from foilstudy.statistics.regression import LinearFit, fit_linear
+from foilstudy.statistics.summary import stiffness_summary
+from foilstudy.statistics.tables import TABLES, write_tables
+from foilstudy.statistics.variability import (
+    coefficient_of_variation,
+    coefficient_of_variation_interval,
+    fit_variability,
+    variability_law_table,
+    variability_table,
+)
+
+__all__ = [
+    "TABLES",
+    "LinearFit",
+    "PowerLaw",
+    "coefficient_of_variation",
+    "coefficient_of_variation_interval",
+    "eigenfrequency_table",
+    "fit_linear",
+    "fit_power_law",
+    "fit_variability",
+    "powerlaw_table",
+    "simulated_law",
+    "stiffness_summary",
+    "variability_law_table",
+    "variability_table",
+    "write_tables",
+]

@@ -1,0 +1,15 @@
+"""Interface stiffness of a sheet between its two rigid rings."""
+
+from foilstudy.stiffness.condensation import InterfaceSystem, StaticCondensation, condense
+from foilstudy.stiffness.directional import fixed_stiffness, free_stiffness
+from foilstudy.stiffness.rings import DOF_NAMES, Rings
+
+__all__ = [
+    "DOF_NAMES",
+    "InterfaceSystem",
+    "Rings",
+    "StaticCondensation",
+    "condense",
+    "fixed_stiffness",
+    "free_stiffness",
+]

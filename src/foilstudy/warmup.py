@@ -1,0 +1,28 @@
+"""Compile every numba kernel once, so that parallel jobs only read the cache."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+
+from foilstudy.config import load_config
+
+
+def compile_kernels() -> None:
+    """Run one very small realisation from end to end."""
+    from foilstudy.realisation import crumple, respond
+
+    study = load_config(
+        {
+            "study": {"name": "warmup"},
+            "sweep": {"thickness_um": [500], "reference_height_mm": [150], "realisations": 1},
+            "mesh": {"element_size_mm": 15},
+            "relaxation": {"ramp_steps": 20, "relaxation_steps_max": 20},
+            "dynamics": {"cutoff_hz": 100, "shown_max_hz": 50},
+        }
+    )
+    (cell,) = study.cells()
+    with tempfile.TemporaryDirectory() as folder:
+        paths = Path(folder) / "crumple.nc", Path(folder) / "response.nc"
+        crumple(study.crumple_task(cell), paths[0])
+        respond(study.response_task(cell), *paths)

@@ -1,0 +1,142 @@
+"""Progress of a study in one line per finished job; Snakemake loads this by its package name.
+
+    [ 17/52] 1:08, about 2:20 left: response t500um h170mm seed 3: axial 8.4, radial 25 N/mm
+
+Snakemake's default is about twenty lines per job, which bury what a user wants to see; they are
+still in the log file under ``.snakemake/log``. ``workflow/profiles/default`` selects this logger.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from contextlib import suppress
+from logging import WARNING, LogRecord
+from pathlib import Path
+from textwrap import shorten
+
+from snakemake_interface_logger_plugins.base import LogHandlerBase
+from snakemake_interface_logger_plugins.common import LogEvent
+
+__all__ = ["LogHandler"]
+
+LOG_LINES_SHOWN = 15
+JOBS_BEFORE_ESTIMATE = 4
+REASON_LENGTH = 80
+# Messages without an event that a user wants to see all the same.
+_WORTH_SHOWING = (
+    "Nothing to be done",
+    "This was a dry-run",
+    "Elapsed time",
+    "Terminating processes",
+    "Report created",
+    "Report:",
+    "Unlocked",
+)
+# The job's own line and log say more than the shell command that Snakemake quotes with these.
+_SAID_BY_THE_JOB = ("CalledProcessError", "RuleException", "SpawnedJobError")
+# A file that Snakemake cannot open is the user's slip, whose last line says it all.
+_NO_TRACEBACK = ("FileNotFoundError", "IsADirectoryError", "PermissionError")
+
+
+class LogHandler(LogHandlerBase):
+    """Writes what a study is doing to the terminal."""
+
+    def __post_init__(self) -> None:
+        self._stream = sys.stdout if self.common_settings.stdout else sys.stderr
+        self._jobs: dict[int, tuple[str, list[str]]] = {}
+        self._finished: list[int] = []
+        self._started = time.monotonic()
+        self._planned = False
+
+    writes_to_stream = True
+    writes_to_file = False
+    # Only what emit() chooses is shown, so Snakemake's --quiet has nothing left to hide.
+    has_filter = True
+    has_formatter = True
+    needs_rulegraph = False
+
+    def emit(self, record: LogRecord) -> None:
+        """Write the record, if it is one that a user follows."""
+        event = getattr(record, "event", None)
+        if event == LogEvent.RUN_INFO:
+            self._write_plan(record.stats)
+        elif event == LogEvent.JOB_INFO:
+            self._note_job(record)
+        elif event == LogEvent.JOB_FINISHED:
+            self._finished.append(record.job_id)
+        elif event == LogEvent.PROGRESS:
+            self._write_finished(record.done, record.total)
+        elif event == LogEvent.JOB_ERROR:
+            self._write_failure(record)
+        elif event == LogEvent.SHELLCMD and self.common_settings.printshellcmds:
+            self._write(getattr(record, "shellcmd", None) or "")
+        elif event == LogEvent.ERROR and record.exception in _SAID_BY_THE_JOB:
+            return
+        elif event == LogEvent.ERROR and record.exception in _NO_TRACEBACK:
+            self._write(record.getMessage().strip().splitlines()[-1])
+        elif record.levelno >= WARNING or self.common_settings.verbose:
+            self._write(record.getMessage())
+        elif event is None and str(record.msg).startswith(_WORTH_SHOWING):
+            self._write(record.getMessage())
+
+    def _write(self, line: str) -> None:
+        # The reader of a pipe may have seen enough; the study goes on.
+        with suppress(BrokenPipeError):
+            self._stream.write(line.rstrip() + "\n")
+            self._stream.flush()
+
+    def _write_plan(self, jobs_per_rule: dict[str, int]) -> None:
+        # A dry-run sends the same plan before and after its jobs.
+        if self._planned:
+            return
+        self._planned = True
+        self._started = time.monotonic()
+        counts = ", ".join(
+            f"{count} {rule}" for rule, count in jobs_per_rule.items() if rule != "total"
+        )
+        self._write(f"{jobs_per_rule['total']} jobs: {counts}")
+
+    def _note_job(self, record: LogRecord) -> None:
+        name = record.rule_msg or record.rule_name
+        self._jobs[record.jobid] = (name, record.log)
+        if self.common_settings.dryrun:
+            reason = shorten(record.reason, REASON_LENGTH, placeholder=" ...")
+            self._write(f"would run {name}: {reason}")
+
+    def _write_finished(self, done: int, total: int) -> None:
+        elapsed = time.monotonic() - self._started
+        # The first jobs are no measure: compiling alone takes longer than most others together.
+        known = JOBS_BEFORE_ESTIMATE <= done < total
+        left = f", about {_clock(elapsed * (total - done) / done)} left" if known else ""
+        for jobid in self._finished:
+            name, logs = self._jobs.get(jobid, ("job", []))
+            lines = _last_lines(logs, 1)
+            outcome = f": {lines[0]}" if lines else ""
+            count = f"[{done:{len(str(total))}d}/{total}]"
+            self._write(f"{count} {_clock(elapsed)}{left}: {name}{outcome}")
+        self._finished.clear()
+
+    def _write_failure(self, record: LogRecord) -> None:
+        name, logs = self._jobs.get(record.jobid, (record.rule_name, record.log))
+        self._write(f"FAILED {name}; its log {', '.join(logs)} ends with:")
+        for line in _last_lines(logs, LOG_LINES_SHOWN):
+            self._write(f"    {line}")
+
+
+def _clock(seconds: float) -> str:
+    """Duration as m:ss or h:mm:ss."""
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}:{minutes:02d}:{rest:02d}" if hours else f"{minutes}:{rest:02d}"
+
+
+def _last_lines(logs: list[str], count: int) -> list[str]:
+    """Last lines of a job's logs; nothing where a log was not written."""
+    lines: list[str] = []
+    for log in logs:
+        try:
+            lines += Path(log).read_text(encoding="utf-8", errors="replace").splitlines()
+        except OSError:
+            continue
+    return lines[-count:]

@@ -1,0 +1,195 @@
+"""Every figure draws what it should from ordinary, tiny and failed studies, reproducibly."""
+
+from __future__ import annotations
+
+import io
+import subprocess
+import sys
+
+import matplotlib.image
+import numpy as np
+import pytest
+from synthetic import make_cube, write_crumple
+
+from foilstudy.figures import FIGURES, draw_all, draw_figure
+from foilstudy.figures.crumples import Shape, catalogue, read_shape, typical_configuration
+from foilstudy.figures.render import View, render
+from foilstudy.figures.style import spread
+from foilstudy.patch import Patch, cylinder_control_points
+
+CUBE_FIGURES = [name for name, spec in FIGURES.items() if spec.needs == ("cube",)]
+SHAPE_FIGURES = [name for name, spec in FIGURES.items() if spec.needs == ("crumple_paths",)]
+
+
+def scatter(overlength, direction):
+    return 0.1 + 1e-3 * overlength
+
+
+@pytest.fixture(scope="module")
+def crumple_paths(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("crumples")
+    return [
+        write_crumple(folder / "a.nc", 500, 170, 1, element_mm=10),
+        write_crumple(folder / "b.nc", 500, 170, 0, element_mm=10),
+        write_crumple(folder / "c.nc", 50, 135, 0, status="failed"),
+    ]
+
+
+def ink(figure):
+    """Share of the figure that is not nearly white."""
+    buffer = io.BytesIO()
+    figure.savefig(buffer, dpi=40, format="png")
+    buffer.seek(0)
+    return np.mean(matplotlib.image.imread(buffer)[..., :3].min(axis=-1) < 0.9)
+
+
+def texts(figure):
+    import matplotlib.text
+
+    return " ".join(t.get_text().replace("\n", " ") for t in figure.findobj(matplotlib.text.Text))
+
+
+def test_every_figure_takes_the_cube_or_the_crumples():
+    assert set(CUBE_FIGURES) | set(SHAPE_FIGURES) == set(FIGURES)
+    for spec in FIGURES.values():
+        assert spec.title and spec.caption.endswith(".")
+
+
+def test_registry_does_not_import_matplotlib():
+    code = "import sys, foilstudy.figures; assert not {'matplotlib', 'xarray'} & set(sys.modules)"
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+@pytest.mark.parametrize("name", CUBE_FIGURES)
+@pytest.mark.parametrize(
+    "sweep",
+    [
+        {"thickness_um": (50.0, 500.0), "reference_height_mm": (135.0, 170.0, 250.0), "seeds": 2},
+        {"thickness_um": (500.0,), "reference_height_mm": (170.0,), "seeds": 1},
+    ],
+    ids=["sweep", "single"],
+)
+def test_cube_figure_has_ink(name, sweep):
+    figure = FIGURES[name].draw(cube=make_cube(cv=scatter, **sweep))
+    assert 0.01 < ink(figure) < 0.7
+
+
+@pytest.mark.parametrize("name", CUBE_FIGURES)
+def test_figure_of_a_study_without_a_usable_cell_says_so(name):
+    cube = make_cube(
+        thickness_um=(500.0,), reference_height_mm=(170.0,), seeds=1, failed=[(0, 0, 0)]
+    )
+    figure = FIGURES[name].draw(cube=cube)
+    assert "usable" in texts(figure)
+    assert ink(figure) > 0
+
+
+@pytest.mark.parametrize("name", SHAPE_FIGURES)
+def test_figure_without_any_shape_says_so(name, tmp_path):
+    path = write_crumple(tmp_path / "failed.nc", 500, 170, 0, status="diverged")
+    figure = FIGURES[name].draw(crumple_paths=[path])
+    assert "diverged" in texts(figure) or "no usable realisation" in texts(figure)
+    assert ink(figure) > 0
+
+
+@pytest.mark.parametrize("name", SHAPE_FIGURES)
+def test_shape_figure_has_ink(name, crumple_paths):
+    figure = FIGURES[name].draw(crumple_paths=crumple_paths)
+    assert 0.02 < ink(figure) < 0.7
+    if name == "morphology":
+        assert "failed: the ring force is not finite" in texts(figure)
+        assert "overlength 31 %" in texts(figure)
+
+
+def test_same_figure_gives_the_same_bytes(tmp_path):
+    cube_path = tmp_path / "cube.nc"
+    make_cube(thickness_um=(50.0, 500.0), seeds=2, cv=scatter).to_netcdf(cube_path)
+    first = draw_figure("variability", cube_path, [], tmp_path / "new" / "a")
+    again = draw_figure("variability", cube_path, [], tmp_path / "new" / "b")
+    assert [p.name for p in first] == ["a.png", "a.svg"]
+    assert [p.read_bytes() for p in first] == [p.read_bytes() for p in again]
+    assert len(list((tmp_path / "new").iterdir())) == 4
+
+
+def test_unknown_figure_is_named():
+    with pytest.raises(KeyError, match="no figure 'nothing': choose one of morphology"):
+        draw_figure("nothing", "cube.nc", [], "stem")
+
+
+def test_draw_all_writes_png_and_svg_of_every_figure(crumple_paths, tmp_path, monkeypatch):
+    import foilstudy.figures.registry as registry
+
+    drawn = []
+    monkeypatch.setattr(
+        registry, "draw_figure", lambda name, cube, crumples, stem: drawn.append(stem.name) or ()
+    )
+    draw_all("cube.nc", crumple_paths, tmp_path)
+    assert drawn == list(FIGURES)
+
+
+def test_stiffness_figure_shows_mean_fit_and_published_law():
+    cube = make_cube(cv=scatter, seeds=3)
+    figure = FIGURES["stiffness_axial"].draw(cube=cube)
+    ax = figure.axes[-1]
+    lines = {line.get_label(): line for line in ax.get_lines()}
+    dashed = lines["published simulation (fit)"]
+    # The published fit at 500 um and 30.8 %.
+    at = np.interp(np.log(400 / 13), np.log(dashed.get_xdata()), np.log(dashed.get_ydata()))
+    assert np.exp(at) == pytest.approx(10807, rel=1e-3)
+    refined = lines["same shapes, refined mesh"].get_ydata()
+    expected = cube["static_stiffness_converged"].sel(thickness=500, direction="axial")
+    np.testing.assert_allclose(refined, expected.mean("seed"))
+
+
+def test_dynamic_stiffness_figure_takes_every_definition():
+    from foilstudy.figures import dynamic_stiffness
+
+    cube = make_cube(thickness_um=(500.0,), reference_height_mm=(170.0,), seeds=2, cv=scatter)
+    for definition in cube["definition"].values:
+        figure = dynamic_stiffness.draw(cube, str(definition))
+        median = np.hypot(cube["dynamic_stiffness_re"], cube["dynamic_stiffness_im"]).sel(
+            definition=definition, direction="axial"
+        ).median("seed").squeeze()
+        np.testing.assert_allclose(figure.axes[0].get_lines()[0].get_ydata(), median)
+
+
+def test_catalogue_is_sorted_and_knows_failures(crumple_paths):
+    crumples = catalogue(crumple_paths)
+    assert [(c.thickness_um, c.seed, c.has_shape) for c in crumples] == [
+        (50, 0, False),
+        (500, 0, True),
+        (500, 1, True),
+    ]
+    assert [c.seed for c in typical_configuration(crumples)] == [0, 1]
+
+
+def test_picture_of_a_straight_cylinder_has_its_true_outline():
+    patch = Patch.for_cylinder(0.2, 0.13, 5e-3)
+    picture = render(Shape(cylinder_control_points(patch, 0.2), 0.1), View(elevation_deg=0.0))
+    solid = picture.rgba[..., 3] > 0.5
+    left, right, bottom, top = picture.extent_mm
+    pixel = (right - left) / solid.shape[1]
+    columns, rows = solid.any(axis=0).sum() * pixel, solid.any(axis=1).sum() * pixel
+    assert columns == pytest.approx(200, abs=1.5)
+    assert rows == pytest.approx(130, abs=1.5)
+    # No holes: seen from the side the outline is a full rectangle.
+    assert solid.sum() == solid.any(axis=0).sum() * solid.any(axis=1).sum()
+    # No radial displacement is the even grey of the colour map everywhere.
+    colour = picture.rgba[solid][:, :3]
+    assert np.ptp(colour, axis=1).max() < 0.02
+
+
+def test_picture_colours_outward_red_and_inward_blue(crumple_paths):
+    shape = read_shape(catalogue(crumple_paths)[1])
+    for factor, channel in ((1.1, 0), (0.9, 2)):
+        points = shape.control_points * np.array([factor, factor, 1.0])[:, None, None]
+        picture = render(Shape(points, shape.radius), View(pixel_mm=2.0))
+        mean = picture.rgba[picture.rgba[..., 3] > 0.9].mean(axis=0)
+        assert np.argmax(mean[:3]) == channel
+
+
+def test_spread_keeps_labels_apart_and_moves_them_least():
+    np.testing.assert_allclose(spread([0.1, 0.5, 0.9], 0.1), [0.1, 0.5, 0.9])
+    np.testing.assert_allclose(spread([0.5, 0.5], 0.2), [0.4, 0.6])
+    moved = spread([0.0, 0.01, 0.5, 0.52, 0.53], 0.1)
+    assert (np.diff(moved) > 0.1 - 1e-12).all()

@@ -1,0 +1,481 @@
+"""The report page: complete, self-contained, true to its tables, and safe with odd studies."""
+
+import base64
+import dataclasses
+import hashlib
+import html
+import json
+import math
+import re
+from html.parser import HTMLParser
+
+import netCDF4
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+
+from foilstudy.report import ReportInputs, write_report
+from foilstudy.report.findings import Exponent, mesh_sentence
+from foilstudy.report.health import assess
+from foilstudy.report.numerals import fixed, number, percent_range
+from foilstudy.report.viewer import choose_shapes, decode_points, pack_shape
+from foilstudy.statistics import write_tables
+
+PIXEL = base64.b64decode(
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAQAAAC1HAwCAAAAC0lEQVR42mNk+A8AAQUBAScY42YAAAAASUVORK5CYII="
+)
+CONFIG = """\
+sheet: {diameter_mm: 200, gap_height_mm: 130}
+material: {name: FEP, youngs_modulus_mpa: 650, poisson_ratio: 0.4}
+mesh: {element_size_mm: 5}
+stiffness: {refinements: 1}
+report: {title: Synthetic study}
+"""
+CELL = ("thickness", "overlength", "seed")
+LAW = {"axial": (3.5, -0.9, 1.4), "radial": (3.2, -0.5, 1.42)}
+
+
+def synthetic_cube(thickness=(50.0, 250.0, 500.0), height=(135.0, 170.0, 250.0), seeds=3, **cells):
+    """Cube that follows `LAW`; ``cells`` sets the (status, message) of (i, j, s) cells."""
+    rng = np.random.default_rng(0)
+    thickness, height = np.array(thickness), np.array(height)
+    overlength = 100 * (height - 130) / 130
+    shape = (thickness.size, overlength.size, seeds)
+    t, o = thickness[:, None, None], overlength[None, :, None]
+    k = np.stack(
+        [
+            np.exp(a + b * np.log(o) + g * np.log(t) + 0.1 * rng.standard_normal(shape))
+            for a, b, g in LAW.values()
+        ],
+        axis=-1,
+    )
+    refined = k * ((t / 600) ** 0.3)[..., None]
+    frequency = np.geomspace(1, 800, 20)
+    dynamic = np.broadcast_to(k[:, :, :, None, :, None], (*shape, 3, 2, 20)) * (
+        1 + (frequency / 200) ** 2
+    )
+    ones = np.ones(shape)
+    values = {
+        "membrane_energy": 0.3 * ones,
+        "bending_energy": 0.6 * ones,
+        "stabilisation_energy": 0.1 * ones * (50 / t),
+        "equilibrium_residual": 1e-7 * ones,
+        "negative_eigenvalues": np.where(t > 400, 2.0, 0.0) * ones,
+        "radial_displacement_min": -20 * ones,
+        "radial_displacement_max": 30.4 * ones,
+        "beyond_yield_share": np.where(o > 50, 0.2, 0.0) * ones,
+        "self_crossing_share": 0 * ones,
+        "seconds_crumple": 3 * ones,
+        "seconds_static": 0.5 * ones,
+        "seconds_dynamic": 1.5 * ones,
+        "peak_memory": 400 * ones,
+        "first_eigenfrequency": 2e6 * (height[None, :, None] ** -2.2) * ones,
+    }
+    status = np.full(shape, "converged", dtype=object)
+    message = np.full(shape, "", dtype=object)
+    for where, (verdict, words) in cells.get("verdicts", {}).items():
+        status[where], message[where] = verdict, words
+        if verdict in ("diverged", "failed"):
+            for array in (*values.values(), k, refined, dynamic := dynamic.copy()):
+                array[where] = np.nan
+    data = {name: (CELL, array) for name, array in values.items()}
+    data |= {
+        "status": (CELL, status),
+        "message": (CELL, message),
+        "static_stiffness": ((*CELL, "direction"), k),
+        "static_stiffness_free": ((*CELL, "direction"), 0.8 * k),
+        "prestressed_stiffness": ((*CELL, "direction"), 0.25 * k),
+        "static_stiffness_converged": ((*CELL, "direction"), refined),
+        "static_stiffness_mesh_error": ((*CELL, "direction"), np.abs(k - refined)),
+        "cylinder_stiffness": (
+            ("thickness", "overlength", "direction"),
+            np.full((*shape[:2], 2), 1e6),
+        ),
+        "dynamic_stiffness_re": ((*CELL, "definition", "direction", "frequency"), dynamic),
+        "dynamic_stiffness_im": ((*CELL, "definition", "direction", "frequency"), 0 * dynamic),
+    }
+    return xr.Dataset(
+        data,
+        {
+            "thickness": thickness,
+            "overlength": overlength,
+            "reference_height": ("overlength", height),
+            "seed": np.arange(seeds),
+            "direction": ["axial", "radial"],
+            "definition": ["transfer", "driving", "relative"],
+            "frequency": frequency,
+        },
+        {
+            "study": "synthetic",
+            "config": CONFIG,
+            "git_commit": "0123abc",
+            "created": "2026-01-01T00:00:00Z",
+            "numpy": np.__version__,
+        },
+    )
+
+
+def write_crumple(path, thickness_um=500.0, height_mm=170.0, seed=0, status="converged"):
+    """Crumple file with a wavy cylinder; without a surface when it failed."""
+    rows, columns = 9, 24
+    angle = 2 * np.pi * np.arange(columns) / columns
+    level = np.linspace(0, 1, rows)[:, None]
+    radius = 0.1 + 0.02 * np.sin(4 * angle + seed) * np.sin(np.pi * level)
+    surface = np.stack([radius * np.cos(angle), radius * np.sin(angle), 0.13 * level + 0 * angle])
+    reference = np.stack(
+        [0.1 * np.cos(angle) + 0 * level, 0.1 * np.sin(angle) + 0 * level,
+         1e-3 * height_mm * level + 0 * angle]
+    )
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with netCDF4.Dataset(path, "w") as data:
+        data.setncatts(
+            {
+                "status": status,
+                "message": "",
+                "thickness_um": thickness_um,
+                "overlength_percent": 100 * (height_mm - 130) / 130,
+                "reference_height_mm": height_mm,
+                "seed": seed,
+            }
+        )
+        if status in ("converged", "not_converged"):
+            for name, size in (("component", 3), ("node_row", rows), ("node_column", columns)):
+                data.createDimension(name, size)
+            for name, points in (("surface", surface), ("reference_surface", reference)):
+                variable = data.createVariable(name, "f8", ("component", "node_row", "node_column"))
+                variable[:] = points
+    return path
+
+
+def make_study(folder, cube, figures=True, crumples=()):
+    """Write cube, tables and figures of a study into ``folder``."""
+    folder.mkdir(parents=True, exist_ok=True)
+    cube.to_netcdf(folder / "cube.nc")
+    write_tables(folder / "cube.nc", folder)
+    (folder / "figures").mkdir()
+    if figures:
+        for stem in ("stiffness_axial", "morphology", "not_in_the_registry"):
+            (folder / "figures" / f"{stem}.png").write_bytes(PIXEL)
+        (folder / "figures" / "stiffness_axial.svg").write_text(
+            '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"></svg>'
+        )
+    return ReportInputs(
+        cube_path=folder / "cube.nc",
+        powerlaw_csv=folder / "powerlaw.csv",
+        variability_csv=folder / "variability.csv",
+        eigenfrequency_csv=folder / "eigenfrequency_law.csv",
+        stiffness_summary_csv=folder / "stiffness_summary.csv",
+        figures_dir=folder / "figures",
+        crumple_paths=tuple(crumples),
+    )
+
+
+def words(page):
+    """Text of the page as it is read, without tags, scripts and styles."""
+    body = re.sub(r"<(script|style)\b.*?</\1>", " ", page, flags=re.S)
+    return re.sub(r"\s+", " ", html.unescape(re.sub(r"<[^>]+>", " ", body)))
+
+
+def unpack(packed, name):
+    return decode_points(packed[name], packed["scale"], packed["rows"], packed["columns"])
+
+
+def first_screen(page):
+    return page.split('<section id="law">')[1].split("</section>")[0]
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory):
+    """A sound study with one cell that stopped at the step limit; inputs and page."""
+    folder = tmp_path_factory.mktemp("study")
+    crumples = [
+        write_crumple(folder / f"{t:g}_{h:g}.nc", t, h)
+        for t in (50.0, 250.0, 500.0)
+        for h in (135.0, 170.0, 250.0)
+    ]
+    cube = synthetic_cube(verdicts={(0, 2, 1): ("not_converged", "stopped at the step limit")})
+    inputs = make_study(folder, cube, crumples=crumples)
+    benchmarks = folder / "benchmarks"
+    (benchmarks / "crumple").mkdir(parents=True)
+    for cell in ("a", "b"):
+        (benchmarks / "crumple" / f"{cell}.tsv").write_text(
+            "s\th:m:s\tmax_rss\tcpu_time\n2.5\t0:00:02\t300\t2.25\n"
+        )
+    (benchmarks / "cube.tsv").write_text("s\th:m:s\tmax_rss\tcpu_time\n0.1\t0:00:00\t-\t-\n")
+    inputs = dataclasses.replace(inputs, benchmarks_dir=benchmarks)
+    out = write_report(inputs, folder / "report.html")
+    return inputs, out.read_text("utf-8")
+
+
+class Resources(HTMLParser):
+    """Collects what a browser would load, what the reader may follow, and open tags."""
+
+    VOID = {"meta", "img", "input", "br", "link"}
+
+    def __init__(self):
+        super().__init__()
+        self.loaded, self.followed, self.open, self.ids = [], [], [], []
+
+    def handle_starttag(self, tag, attrs):
+        attrs = dict(attrs)
+        self.loaded += [attrs[k] for k in ("src", "srcset", "poster", "data") if k in attrs]
+        if "href" in attrs:
+            (self.followed if tag == "a" else self.loaded).append(attrs["href"])
+        if "id" in attrs:
+            self.ids.append(attrs["id"])
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+
+def parse(page):
+    parser = Resources()
+    parser.feed(page)
+    assert parser.open == []
+    assert len(set(parser.ids)) == len(parser.ids)
+    return parser
+
+
+def test_page_loads_nothing_from_elsewhere(study):
+    _, page = study
+    parser = parse(page)
+    assert parser.loaded and all(source.startswith("data:") for source in parser.loaded)
+    assert not [target for target in parser.followed if re.match(r"\w+:|//", target)]
+    assert "url(" not in page and "@import" not in page and "fetch(" not in page
+    anchors = {target[1:] for target in parser.followed if target.startswith("#")}
+    assert anchors <= set(parser.ids)
+
+
+def test_policy_admits_the_one_script(study):
+    _, page = study
+    script = re.search(r"<script>(.*?)</script>", page, flags=re.S)[1]
+    digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+    policy = re.search(r'Content-Security-Policy" content="([^"]+)"', page)[1].split("; ")
+    assert set(policy) == {
+        "default-src 'none'",
+        "img-src data:",
+        "style-src 'unsafe-inline'",
+        f"script-src 'sha256-{digest}'",
+    }
+    assert len(re.findall(r"<script>", page)) == 1
+
+
+def test_images_decode_and_vector_drawings_win(study):
+    _, page = study
+    sources = dict(re.findall(r'<figure id="figure-(\w+)".*?<img src="([^"]+)"', page, flags=re.S))
+    assert set(sources) == {"stiffness_axial", "morphology", "not_in_the_registry"}
+    for source in sources.values():
+        assert base64.b64decode(source.split(",")[1], validate=True)
+    assert sources["stiffness_axial"].startswith("data:image/svg+xml")
+    assert base64.b64decode(sources["morphology"].split(",")[1]) == PIXEL
+
+
+def test_shapes_decode_to_the_crumples(study):
+    inputs, page = study
+    data = json.loads(re.search(r'id="viewer-data">(.*?)</script>', page, flags=re.S)[1])
+    chosen = choose_shapes(inputs.crumple_paths)
+    assert len(data["shapes"]) == len(chosen) == 9
+    assert len(base64.b64decode(data["colours"])) == 3 * 256
+    for packed, crumple in zip(data["shapes"], chosen, strict=True):
+        with netCDF4.Dataset(crumple.path) as file:
+            for name, variable in (("surface", "surface"), ("reference", "reference_surface")):
+                points = unpack(packed, name)
+                assert np.abs(points - file[variable][:]).max() <= 0.5001 * packed["scale"]
+        assert packed["scale"] < 1e-5
+        assert packed["radius"] == pytest.approx(0.1)
+    assert page.count("<option>") == 9
+
+
+def test_fine_mesh_is_thinned_and_keeps_its_edges(tmp_path, monkeypatch):
+    monkeypatch.setattr("foilstudy.report.viewer.NODES_MAX", 60)
+    (crumple,) = choose_shapes([write_crumple(tmp_path / "crumple.nc")])
+    packed = pack_shape(crumple)
+    assert packed["rows"] * packed["columns"] <= 100
+    points = unpack(packed, "surface")
+    assert points[2, 0, 0] == pytest.approx(0, abs=1e-5)
+    assert points[2, -1, 0] == pytest.approx(0.13, abs=1e-5)
+
+
+def test_damaged_shape_is_named(tmp_path):
+    path = write_crumple(tmp_path / "crumple.nc")
+    with netCDF4.Dataset(path, "a") as data:
+        data["surface"][0, 0, 0] = np.nan
+    with pytest.raises(ValueError, match="crumple.nc: the surface holds values"):
+        pack_shape(*choose_shapes([path]))
+
+
+def test_first_converged_seed_is_shown(tmp_path):
+    paths = [
+        write_crumple(tmp_path / "0.nc", seed=0, status="diverged"),
+        write_crumple(tmp_path / "1.nc", seed=1, status="not_converged"),
+        write_crumple(tmp_path / "2.nc", seed=2),
+    ]
+    assert [shape.seed for shape in choose_shapes(paths)] == [2]
+
+
+def test_first_screen_says_what_the_table_says(study):
+    inputs, page = study
+    table = pd.read_csv(inputs.powerlaw_csv)
+    screen = first_screen(page)
+    text = words(screen)
+    for row in table.itertuples():
+        for value, low, high in (
+            (row.beta, row.beta_low, row.beta_high),
+            (row.gamma, row.gamma_low, row.gamma_high),
+        ):
+            assert f"{fixed(value)} [{fixed(low)}, {fixed(high)}]" in text
+        if row.source == "simulation":
+            margin = (row.beta_high - row.beta_low) / 2
+            assert f"falls as overlength {fixed(row.beta)} ± {fixed(margin)}" in text
+            margin = (row.gamma_high - row.gamma_low) / 2
+            assert f"grows as thickness {fixed(row.gamma)} ± {fixed(margin)}" in text
+            assert f"R² = {fixed(row.r2, 3)}, {row.n:.0f} realisations" in text
+    assert "26 of 27 realisations converged; 1 not converged." in text
+    assert screen.index("answer") < screen.index("<table") < screen.index("figure-stiffness_axial")
+
+
+def test_first_screen_states_the_mesh_error(study):
+    inputs, page = study
+    with xr.open_dataset(inputs.cube_path) as cube:
+        lower = 1 - (cube.static_stiffness_converged / cube.static_stiffness).sel(direction="axial")
+        extent = percent_range(float(lower.min()), float(lower.max()))
+    assert f"On the once refined mesh the axial stiffness is {extent} lower" in words(
+        first_screen(page)
+    )
+
+
+def test_unmeasured_mesh_error_is_not_called_zero(study):
+    inputs, _ = study
+    with xr.open_dataset(inputs.cube_path) as cube:
+        cube = cube.assign(
+            static_stiffness_converged=cube.static_stiffness,
+            static_stiffness_mesh_error=cube.static_stiffness_mesh_error * np.nan,
+        )
+        health = assess(cube)
+    assert mesh_sentence(health, 0, ["axial"]) == (
+        "The mesh error of the stiffness was not measured."
+    )
+
+
+def test_prestress_is_named(study):
+    _, page = study
+    assert "the stiffness is 0.25 times in the axial direction" in words(page)
+
+
+def test_flagged_cells_are_listed(study):
+    _, page = study
+    flagged = page.split('<table id="flagged">')[1].split("</table>")[0]
+    assert "stopped at the step limit" in flagged and "not converged" in flagged
+    assert flagged.count("<tr>") == 2
+
+
+def test_costs_add_up(study):
+    inputs, page = study
+    with xr.open_dataset(inputs.cube_path) as cube:
+        health = assess(cube, inputs.benchmarks_dir)
+    assert sum(cost.share for cost in health.costs) == pytest.approx(1)
+    assert {cost.stage: cost.total_s for cost in health.costs}["crumple"] == pytest.approx(81)
+    jobs = {job["rule"]: job for job in health.jobs}
+    assert jobs["crumple"]["jobs"] == 2 and jobs["crumple"]["wall_s"] == pytest.approx(5)
+    assert jobs["crumple"]["cpu_s"] == pytest.approx(4.5)
+    assert math.isnan(jobs["cube"]["memory_mb"])
+    assert "nan" not in words(page).lower().split()
+
+
+def test_health_shares_and_limits(study):
+    inputs, _ = study
+    with xr.open_dataset(inputs.cube_path) as cube:
+        health = assess(cube)
+    assert health.stabilisation_share[50.0].median == pytest.approx(0.1)
+    assert health.worst_residual == pytest.approx(1e-7)
+    assert health.unstable == 9
+    assert len(health.model_limits) == 3
+    assert all(limit.overlength_percent > 90 for limit in health.model_limits)
+
+
+def test_same_inputs_give_the_same_page(study, tmp_path):
+    inputs, page = study
+    out = inputs.cube_path.parent / "again.html"
+    assert write_report(inputs, out).read_text("utf-8") == page
+
+
+def test_hostile_strings_stay_text(tmp_path):
+    attack = '</script><img src=x onerror="alert(1)"><script>alert(2)</script>{{ 7 * 191 }}'
+    cube = synthetic_cube(verdicts={(0, 0, 0): ("failed", attack)})
+    cube.attrs |= {"study": attack, "git_commit": attack}
+    cube.attrs["config"] = CONFIG.replace("Synthetic study", json.dumps(attack)).replace(
+        "FEP", json.dumps(attack)
+    )
+    crumple = write_crumple(tmp_path / "crumple.nc")
+    inputs = make_study(tmp_path / "study", cube, crumples=[crumple])
+    page = write_report(inputs, tmp_path / "study" / "report.html").read_text("utf-8")
+    parser = parse(page)
+    assert "x" not in parser.loaded
+    assert page.count("<script") == 2
+    assert page.count("onerror=&#34;alert(1)&#34;") >= 4
+    assert "1337" not in page
+
+
+def test_one_configuration_lacks_both_exponents(tmp_path):
+    inputs = make_study(tmp_path, synthetic_cube((250.0,), (170.0,), 2), figures=False)
+    page = write_report(inputs, tmp_path / "report.html").read_text("utf-8")
+    parse(page)
+    text = words(first_screen(page))
+    assert "is known at one configuration only" in text
+    assert pd.read_csv(inputs.powerlaw_csv)["note"][0] in text
+
+
+def test_one_thickness_lacks_its_exponent(tmp_path):
+    inputs = make_study(tmp_path, synthetic_cube((250.0,)), figures=False)
+    page = write_report(inputs, tmp_path / "report.html").read_text("utf-8")
+    answers = words(first_screen(page).split("<table")[0])
+    assert "falls as overlength" in answers
+    assert "as thickness" not in answers
+    assert "thickness takes one value only" in answers
+
+
+def test_single_realisation(tmp_path):
+    inputs = make_study(tmp_path, synthetic_cube((250.0,), (170.0,), 1), figures=False)
+    page = write_report(inputs, tmp_path / "report.html").read_text("utf-8")
+    assert "Scatter needs at least two" in words(page)
+
+
+def test_study_without_a_single_result_says_so(tmp_path):
+    cells = {(i, j, s): ("failed", "out of memory") for i, j, s in np.ndindex(2, 2, 1)}
+    cube = synthetic_cube((50.0, 500.0), (135.0, 170.0), 1, verdicts=cells)
+    crumples = [write_crumple(tmp_path / "crumple.nc", status="failed")]
+    inputs = make_study(tmp_path / "study", cube, figures=False, crumples=crumples)
+    page = write_report(inputs, tmp_path / "study" / "report.html").read_text("utf-8")
+    parse(page)
+    text = words(page)
+    assert "no law can be given: no usable realisation" in text
+    assert "0 of 4 realisations converged; 4 failed." in text
+    assert "No realisation left a shape" in text
+    assert page.count("out of memory") == 4
+    assert 'id="viewer"' not in page
+
+
+def test_nothing_half_written_remains(tmp_path):
+    inputs = make_study(tmp_path, synthetic_cube((250.0,)))
+    missing = dataclasses.replace(inputs, powerlaw_csv=tmp_path / "none.csv")
+    with pytest.raises(FileNotFoundError):
+        write_report(missing, tmp_path / "report.html")
+    assert not list(tmp_path.glob("*report.html*"))
+
+
+def test_verbs_follow_the_interval():
+    assert Exponent(-0.9, 0.1, -1.1, -0.7).effect == "falls as"
+    assert Exponent(1.4, 0.1, 1.2, 1.6).effect == "grows as"
+    assert Exponent(0.1, 0.2, -0.3, 0.5).effect == "shows no clear trend with"
+
+
+@pytest.mark.parametrize(
+    "value, text",
+    [(0, "0"), (13349.2, "13\u202f300"), (-0.8512, "−0.851"), (1.3e-7, "1.30e−7"),
+     (999.6, "1\u202f000"), (math.nan, "–"), (42, "42.0")],
+)
+def test_number(value, text):
+    assert number(value) == text

@@ -1,0 +1,233 @@
+"""The statistics recover known truths and agree with independent formulas."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+import pytest
+from scipy import stats
+from synthetic import EXPONENT, LAW, make_cube
+
+from foilstudy import statistics
+from foilstudy.reference import published
+from foilstudy.statistics.cells import samples
+
+KEYS = {"alpha": "constant", "beta": "overlength", "gamma": "thickness"}
+
+
+def noisy_cube(**kwargs):
+    return make_cube(cv=lambda overlength, direction: 0.1 + 1e-3 * overlength, **kwargs)
+
+
+@pytest.mark.parametrize("direction", ["axial", "radial"])
+def test_power_law_of_exact_data_is_recovered(direction):
+    law = statistics.simulated_law(make_cube(), direction)
+    np.testing.assert_allclose((law.alpha, law.beta, law.gamma), LAW[direction], rtol=1e-10)
+    assert law.fit.n == 120
+    assert law.fit.r2 == pytest.approx(1)
+    alpha, beta, gamma = LAW[direction]
+    assert law.stiffness(30.0, 250.0) == pytest.approx(np.exp(alpha) * 30**beta * 250**gamma)
+
+
+def test_power_law_matches_the_normal_equations():
+    data = samples(noisy_cube(), "static_stiffness", direction="axial")
+    law = statistics.fit_power_law(data)
+    X = np.column_stack(
+        [np.ones(data.value.size), np.log(data.overlength_percent), np.log(data.thickness_um)]
+    )
+    y = np.log(data.value)
+    inverse = np.linalg.inv(X.T @ X)
+    coefficients = inverse @ X.T @ y
+    residuals = y - X @ coefficients
+    variance = residuals @ residuals / (y.size - 3)
+    error = np.sqrt(variance * np.diag(inverse))
+    half = stats.t.ppf(0.975, y.size - 3) * error
+    np.testing.assert_allclose((law.alpha, law.beta, law.gamma), coefficients, rtol=1e-9)
+    for i, key in enumerate(KEYS.values()):
+        assert law.fit.std_error[key] == pytest.approx(error[i], rel=1e-9)
+        assert law.fit.low[key] == pytest.approx(coefficients[i] - half[i], rel=1e-9)
+        assert law.fit.high[key] == pytest.approx(coefficients[i] + half[i], rel=1e-9)
+    assert law.fit.residual_std == pytest.approx(np.sqrt(variance))
+    assert law.fit.r2 == pytest.approx(1 - residuals @ residuals / np.sum((y - y.mean()) ** 2))
+
+
+def test_residual_checks_match_statsmodels_and_scipy():
+    from statsmodels.stats.diagnostic import het_breuschpagan
+
+    law = statistics.simulated_law(noisy_cube(), "radial")
+    fit = law.fit
+    expected = het_breuschpagan(fit.residuals, fit._result.model.exog)[1]
+    assert fit.heteroscedasticity_p() == pytest.approx(expected)
+    assert fit.normality_p() == pytest.approx(stats.shapiro(fit.residuals).pvalue)
+
+
+def test_lack_of_fit_tells_a_bent_law_from_a_straight_one():
+    straight = statistics.simulated_law(noisy_cube(), "axial")
+    assert straight.fit.lack_of_fit_p(straight.configuration) > 0.05
+    cube = noisy_cube()
+    bend = np.exp(0.2 * np.log(cube["overlength"] / 30) ** 2)
+    bent = statistics.simulated_law(
+        cube.assign(static_stiffness=cube["static_stiffness"] * bend), "axial"
+    )
+    assert bent.fit.lack_of_fit_p(bent.configuration) < 1e-6
+
+
+def test_interval_covers_the_truth_at_its_nominal_rate():
+    rng = np.random.default_rng(3)
+    x = np.linspace(0, 1, 12)
+    covered = 0
+    for _ in range(400):
+        fit = statistics.fit_linear(1 + 2 * x + rng.standard_normal(12), {"x": x})
+        covered += fit.low["x"] < 2 < fit.high["x"]
+    assert 0.91 < covered / 400 < 0.985
+
+
+def test_prediction_band_matches_the_textbook_formula():
+    rng = np.random.default_rng(5)
+    x = rng.uniform(0, 10, 20)
+    y = 3 - 0.5 * x + 0.2 * rng.standard_normal(20)
+    fit = statistics.fit_linear(y, {"x": x})
+    at = np.array([0.0, 4.0, 12.0])
+    mean, low, high = fit.predict({"x": at})
+    s = np.sqrt(np.sum(fit.residuals**2) / 18)
+    half = (
+        stats.t.ppf(0.975, 18)
+        * s
+        * np.sqrt(1 / 20 + (at - x.mean()) ** 2 / np.sum((x - x.mean()) ** 2))
+    )
+    np.testing.assert_allclose(high - mean, half)
+    np.testing.assert_allclose(mean - low, half)
+
+
+def test_failed_cells_do_not_enter_and_not_converged_ones_do():
+    cube = make_cube(failed=[(0, 0, 2), (3, 4, 0)])
+    law = statistics.simulated_law(cube, "axial")
+    assert law.fit.n == 118
+    assert law.beta == pytest.approx(LAW["axial"][1])
+
+
+def test_values_that_have_no_logarithm_do_not_enter():
+    cube = make_cube()
+    cube["static_stiffness"][0, 0, 0, 0] = -5.0
+    cube["static_stiffness"][1, 1, 1, 0] = np.inf
+    assert statistics.simulated_law(cube, "axial").fit.n == 118
+
+
+@pytest.mark.parametrize(
+    ("kwargs", "lost", "note"),
+    [
+        ({"thickness_um": (500.0,)}, "gamma", "thickness takes one value only"),
+        ({"reference_height_mm": (170.0,)}, "beta", "overlength takes one value only"),
+    ],
+)
+def test_degenerate_sweep_drops_its_regressor(kwargs, lost, note):
+    row = statistics.powerlaw_table(noisy_cube(**kwargs)).iloc[0]
+    assert np.isnan(row[lost])
+    assert note in row["note"]
+    kept = "beta" if lost == "gamma" else "gamma"
+    assert row[f"{kept}_low"] < LAW["axial"][1 if kept == "beta" else 2] < row[f"{kept}_high"]
+
+
+def test_single_realisation_and_no_realisation_give_nan_and_a_note():
+    one = make_cube(thickness_um=(500.0,), reference_height_mm=(170.0,), seeds=1)
+    none = make_cube(
+        thickness_um=(500.0,), reference_height_mm=(170.0,), seeds=1, failed=[(0, 0, 0)]
+    )
+    row = statistics.powerlaw_table(one).iloc[0]
+    assert np.isnan(row["alpha_se"]) and "no degree of freedom" in row["note"]
+    row = statistics.powerlaw_table(none).iloc[0]
+    assert np.isnan(row["alpha"]) and row["n"] == 0 and "no usable realisation" in row["note"]
+
+
+def test_published_laws_reproduce_the_quoted_stiffness():
+    # The stiffness the publication's fits give at 500 um, 30.8 %, axial and radial.
+    laws = published().power_laws
+    overlength = 100 * 40 / 130
+    assert laws["axial"]["simulation"].stiffness(overlength, 500) == pytest.approx(10807, rel=1e-4)
+    assert laws["axial"]["experiment"].stiffness(overlength, 500) == pytest.approx(4340, rel=1e-3)
+    assert laws["radial"]["simulation"].stiffness(overlength, 500) == pytest.approx(28084, rel=1e-4)
+
+
+def test_powerlaw_table_has_every_direction_and_source():
+    table = statistics.powerlaw_table(noisy_cube())
+    assert len(table) == 8
+    sources = {"simulation", "simulation_refined", "published_simulation", "published_experiment"}
+    assert set(table["source"]) == sources
+    row = table.set_index(["direction", "source"]).loc[("radial", "published_experiment")]
+    assert (row["beta"], row["beta_se"]) == (-0.55, 0.04)
+    simulated = table[table["source"] == "simulation"]
+    assert (simulated["beta_se_clustered"] > 0).all()
+
+
+def test_coefficient_of_variation_is_exact_where_it_is_prescribed():
+    table = statistics.variability_table(noisy_cube())
+    expected = 0.1 + 1e-3 * table["overlength_percent"]
+    np.testing.assert_allclose(table["cv"], expected, rtol=1e-10)
+    assert (table["cv_low"] < table["cv"]).all() and (table["cv"] < table["cv_high"]).all()
+
+
+def test_coefficient_of_variation_interval_covers_the_truth_for_six_realisations():
+    rng = np.random.default_rng(11)
+    covered = 0
+    for values in 1 + 0.15 * rng.standard_normal((1000, 6)):
+        low, high = statistics.coefficient_of_variation_interval(
+            statistics.coefficient_of_variation(values), 6
+        )
+        covered += low < 0.15 < high
+    assert covered / 1000 == pytest.approx(0.95, abs=0.02)
+
+
+def test_coefficient_of_variation_interval_without_a_bound_is_infinite():
+    assert statistics.coefficient_of_variation_interval(0.9, 3)[1] == np.inf
+    assert np.isnan(statistics.coefficient_of_variation_interval(np.nan, 1)).all()
+
+
+def test_variability_law_recovers_its_slope():
+    law = statistics.variability_law_table(noisy_cube())
+    np.testing.assert_allclose(law["slope"], 1e-3, rtol=1e-8)
+    np.testing.assert_allclose(law["constant"], 0.1, rtol=1e-8)
+    assert (law["n"] == 20).all()
+
+
+def test_variability_of_single_realisations_is_nan():
+    cube = make_cube(seeds=1)
+    assert statistics.variability_table(cube)["cv"].isna().all()
+    assert statistics.variability_law_table(cube)["slope"].isna().all()
+
+
+def test_eigenfrequency_exponent_is_recovered_beside_the_published_one():
+    table = statistics.eigenfrequency_table(make_cube()).set_index("thickness_um")
+    np.testing.assert_allclose(table["exponent"], EXPONENT, rtol=1e-9)
+    assert table.loc[50.0, "published_exponent"] == -2.06
+    assert table.loc[500.0, "published_exponent"] == -2.42
+    assert np.isnan(table.loc[130.0, "published_exponent"])
+
+
+def test_summary_compares_each_configuration_with_the_published_fits():
+    cube = noisy_cube(failed=[(3, 2, 5)])
+    table = statistics.stiffness_summary(cube)
+    assert len(table) == 40
+    row = table[
+        (table["thickness_um"] == 500)
+        & (table["reference_height_mm"] == 170)
+        & (table["direction"] == "axial")
+    ].iloc[0]
+    values = cube["static_stiffness"].to_numpy()[3, 2, :5, 0]
+    assert (row["n"], row["n_failed"], row["n_not_converged"]) == (5, 1, 1)
+    assert row["mean"] == pytest.approx(values.mean())
+    assert row["cv"] == pytest.approx(values.std(ddof=1) / values.mean())
+    assert row["ratio_simulation"] == pytest.approx(values.mean() / 10807, rel=1e-4)
+    assert (row["min"], row["max"]) == (values.min(), values.max())
+
+
+def test_write_tables_writes_readable_files_and_leaves_no_temporary(tmp_path):
+    cube_path = tmp_path / "cube.nc"
+    noisy_cube().to_netcdf(cube_path)
+    paths = statistics.write_tables(cube_path, tmp_path / "tables")
+    assert {p.name for p in (tmp_path / "tables").iterdir()} == {
+        f"{name}.csv" for name in statistics.TABLES
+    }
+    assert len(pd.read_csv(paths[0])) == 8
+    first = [p.read_bytes() for p in paths]
+    again = [p.read_bytes() for p in statistics.write_tables(cube_path, tmp_path / "tables")]
+    assert first == again

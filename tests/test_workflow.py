@@ -1,0 +1,194 @@
+"""The Snakemake workflow: what it plans, what it refuses, what it makes again."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+import xarray as xr
+import yaml
+
+from foilstudy.figures import FIGURES
+
+ROOT = Path(__file__).parents[1]
+TINY = yaml.safe_load((ROOT / "config/tiny.yaml").read_text(encoding="utf-8"))
+SNAKEMAKE = str(Path(sys.executable).with_name("snakemake"))
+# What differs between two runs of one study, and nothing else may.
+COSTS = ("seconds_crumple", "seconds_static", "seconds_dynamic", "peak_memory")
+OCCASION = ("created", "machine")
+
+
+def command(folder, config, *options):
+    """Snakemake on the config, which is written into the folder, as is everything it makes."""
+    path = folder / "study.yaml"
+    path.write_text(yaml.safe_dump(config), encoding="utf-8")
+    return [
+        SNAKEMAKE,
+        *("--snakefile", str(ROOT / "Snakefile"), "--directory", str(folder)),
+        *("--configfile", str(path), *options),
+    ]
+
+
+def snakemake(folder, config, *options):
+    return subprocess.run(
+        command(folder, config, *options), capture_output=True, text=True, cwd=ROOT, check=False
+    )
+
+
+def plan(folder, config):
+    """Number of jobs per rule that a run would start; nothing where all is up to date."""
+    run = snakemake(folder, config, "--dry-run")
+    assert run.returncode == 0, run.stderr
+    header = re.search(r"^\d+ jobs: (.*)$", run.stdout, re.MULTILINE)
+    if header is None:
+        assert "Nothing to be done" in run.stdout
+        return {}
+    jobs = (part.split(" ") for part in header[1].split(", "))
+    return {rule: int(count) for count, rule in jobs}
+
+
+def changed(**sections):
+    """The tiny study with some keys set otherwise."""
+    return {name: {**TINY.get(name, {}), **sections.get(name, {})} for name in {**TINY, **sections}}
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """Folder in which the tiny study counts as finished: its outputs exist, empty but recorded."""
+    folder = tmp_path_factory.mktemp("finished")
+    summary = snakemake(folder, TINY, "--summary")
+    for line in summary.stdout.splitlines():
+        if line.startswith("results/"):
+            path = folder / line.split("\t")[0]
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.touch()
+    touched = snakemake(folder, TINY, "--touch", "--forceall", "-j1")
+    assert touched.returncode == 0, touched.stderr
+    return folder
+
+
+def test_tiny_study_has_one_job_per_step_and_realisation(tmp_path):
+    jobs = plan(tmp_path, TINY)
+    assert jobs == {
+        "compile": 1,
+        "crumple": 8,
+        "response": 8,
+        "cylinder": 1,
+        "cube": 1,
+        "tables": 1,
+        "figure": len(FIGURES),
+        "report": 1,
+        "study": 1,
+    }
+    assert not (tmp_path / "results").exists()
+
+
+def test_bad_config_is_refused_in_one_sentence(tmp_path):
+    run = snakemake(tmp_path, changed(sweep={"thickness_um": [-250, 500]}), "-j1")
+    assert run.returncode != 0
+    said = [line for line in run.stderr.splitlines() if not line.startswith("Using ")]
+    assert len(said) == 1 and "sweep.thickness_um[0]" in said[0]
+    assert not (tmp_path / "results").exists()
+
+
+def test_unwritable_results_are_refused_in_one_sentence(tmp_path):
+    (tmp_path / "results").write_text("a file where the folder should be")
+    run = snakemake(tmp_path, TINY, "-j1")
+    assert run.returncode != 0
+    said = [line for line in run.stderr.splitlines() if not line.startswith("Using ")]
+    assert len(said) == 1 and "results/tiny: cannot be written" in said[0]
+
+
+def test_finished_study_has_nothing_to_do(finished):
+    assert plan(finished, TINY) == {}
+
+
+def test_title_leaves_all_physics_alone(finished):
+    jobs = plan(finished, changed(report={"title": "Another title"}))
+    assert jobs["report"] == 1
+    assert not {"compile", "crumple", "response", "cylinder"} & set(jobs)
+
+
+def test_new_thickness_leaves_finished_realisations_alone(finished):
+    jobs = plan(finished, changed(sweep={"thickness_um": [250, 500, 130]}))
+    assert (jobs["crumple"], jobs["response"], jobs["cube"]) == (4, 4, 1)
+
+
+def test_dynamics_leaves_crumples_alone(finished):
+    jobs = plan(finished, changed(dynamics={"frequencies": 41}))
+    assert jobs["response"] == 8
+    assert "crumple" not in jobs
+
+
+def test_imperfection_crumples_all_again(finished):
+    jobs = plan(finished, changed(imperfection={"kind": "gaussian", "amplitude_um": 20}))
+    assert (jobs["crumple"], jobs["response"]) == (8, 8)
+    assert "cylinder" not in jobs
+
+
+def assert_same_cube(first, second):
+    """The cubes of two folders agree to the last bit, but for what the runs cost."""
+    with (
+        xr.open_dataset(first / "results/tiny/cube.nc") as one,
+        xr.open_dataset(second / "results/tiny/cube.nc") as two,
+    ):
+        attributes = [
+            {name: value for name, value in cube.attrs.items() if name not in OCCASION}
+            for cube in (one, two)
+        ]
+        assert attributes[0] == attributes[1]
+        xr.testing.assert_equal(one.drop_vars(COSTS), two.drop_vars(COSTS))
+
+
+@pytest.fixture(scope="module")
+def undisturbed(tmp_path_factory):
+    """Folder of the tiny study, run on two cores without a break."""
+    folder = tmp_path_factory.mktemp("undisturbed")
+    run = snakemake(folder, TINY, "-j2")
+    assert run.returncode == 0, run.stderr
+    return folder
+
+
+@pytest.mark.slow
+def test_cores_do_not_change_the_cube(undisturbed, tmp_path):
+    run = snakemake(tmp_path, TINY, "-j1")
+    assert run.returncode == 0, run.stderr
+    assert_same_cube(undisturbed, tmp_path)
+
+
+@pytest.mark.slow
+def test_killed_study_resumes_to_the_same_cube(undisturbed, tmp_path):
+    process = subprocess.Popen(
+        command(tmp_path, TINY, "-j2"),
+        cwd=ROOT,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    finished = 0
+    while finished < 5:
+        line = process.stderr.readline()
+        assert line, "the study ended before it could be killed"
+        finished += line.startswith("[")
+    os.killpg(process.pid, signal.SIGKILL)
+    process.stderr.close()
+    process.wait()
+    # Time for the kernel to end the jobs of the killed session too.
+    time.sleep(0.5)
+    before = modification_times(tmp_path)
+
+    run = snakemake(tmp_path, TINY, "-j2")
+    assert run.returncode == 0, run.stderr
+    after = modification_times(tmp_path)
+    remade = {path for path, when in before.items() if after[path] != when}
+    # Only what the two running jobs had in hand when they were killed.
+    assert len(before) >= 3 and len(remade) <= 2
+    assert_same_cube(undisturbed, tmp_path)
+
+
+def modification_times(folder):
+    return {path: path.stat().st_mtime_ns for path in folder.glob("results/tiny/**/*.nc")}

@@ -1,0 +1,112 @@
+"""The study, its paths, and the checks that come before any job."""
+
+import fcntl
+import os
+import shlex
+import sys
+from importlib.metadata import version
+from pathlib import Path
+
+from foilstudy.config import ConfigError, load_config
+from foilstudy.figures import FIGURES
+from snakemake.logging import logger
+
+
+def refuse(problem):
+    """Stop before any job with the problem alone, not a traceback."""
+    logger.error(str(problem))
+    sys.exit(1)
+
+
+def read_study():
+    """The validated study; from its file if there is one alone, as the message then names it."""
+    if len(workflow.configfiles) == 1 and not workflow.config_settings.config:
+        return load_config(os.path.relpath(workflow.configfiles[0]))
+    return load_config(config)
+
+
+try:
+    STUDY = read_study()
+except ConfigError as problem:
+    refuse(problem)
+
+RESULTS = f"results/{STUDY.study.name}"
+LOGS = f"{RESULTS}/logs"
+BENCHMARKS = f"{RESULTS}/benchmarks"
+CELLS = STUDY.cells()
+# Results of another release of the package count as outdated, like those of another task.
+VERSION = version("foilstudy")
+# The interpreter that runs Snakemake, whether or not its environment is activated. Plain commands
+# can be repeated by hand, and spare each job the import of Snakemake by `script:`.
+# -P keeps a script's own folder from hiding modules.
+RUN = f"{shlex.quote(sys.executable)} -P {shlex.quote(str(Path(workflow.basedir, 'workflow/scripts')))}"
+
+CELL = "{thickness}/{overlength}/{seed}"
+CELL_FLAT = "{thickness}_{overlength}_{seed}"
+
+
+wildcard_constraints:
+    thickness=r"t[0-9p]+um",
+    overlength=r"h[0-9p]+mm",
+    seed=r"[0-9]+",
+
+
+def cell_paths(pattern):
+    """The pattern's path for every realisation of the sweep, in the order of `CELLS`."""
+    return [
+        pattern.format(thickness=c.thickness_id, overlength=c.overlength_id, seed=c.seed)
+        for c in CELLS
+    ]
+
+
+def crumple_task(wildcards):
+    """JSON of all that decides how the realisation crumples."""
+    return STUDY.crumple_task(STUDY.cell(*wildcards)).model_dump_json()
+
+
+def response_task(wildcards):
+    """JSON of all that decides how the crumpled realisation responds."""
+    return STUDY.response_task(STUDY.cell(*wildcards)).model_dump_json()
+
+
+def refuse_results(reason):
+    refuse(f"{RESULTS}: cannot be written ({reason}); change that, or run from another folder.")
+
+
+def check_results():
+    """See that the results can be written, without making anything: a dry-run comes here too."""
+    folder = Path(RESULTS)
+    while not folder.exists():
+        folder = folder.parent
+    if not folder.is_dir():
+        refuse_results(f"{folder} is not a folder")
+    if not os.access(folder, os.W_OK | os.X_OK):
+        refuse_results(f"no permission to write into {folder.resolve()}")
+
+
+def claim_results():
+    """Keep other runs of the same study out until this one ends.
+
+    The kernel drops this lock with the process that holds it, however that ends. Snakemake's own
+    lock files (off in profiles/default) would outlive a killed run and block the next.
+    """
+    global results_lock
+    try:
+        Path(RESULTS).mkdir(parents=True, exist_ok=True)
+        results_lock = open(f"{RESULTS}/.lock", "w")
+    except OSError as problem:
+        refuse_results(problem.strerror)
+    try:
+        fcntl.flock(results_lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        refuse(
+            f"{RESULTS}: another run is writing this study; wait until it ends, or give this one "
+            "another study.name."
+        )
+
+
+check_results()
+
+
+onstart:
+    claim_results()

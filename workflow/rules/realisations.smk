@@ -1,0 +1,84 @@
+"""The fan-out: one crumple and one response per thickness, overlength and seed."""
+
+
+rule compile:
+    # Two processes writing one kernel cache have crashed, so this job fills it before the rest.
+    output:
+        f"{RESULTS}/.compiled",
+    params:
+        version=VERSION,
+    log:
+        f"{LOGS}/compile.log",
+    benchmark:
+        f"{BENCHMARKS}/compile.tsv"
+    resources:
+        mem_mb=1000,
+    message:
+        "kernels compiled"
+    shell:
+        "{RUN}/compile.py {output} > {log} 2>&1"
+
+
+rule crumple:
+    input:
+        ancient(rules.compile.output),
+    output:
+        f"{RESULTS}/realisations/{CELL}/crumple.nc",
+    params:
+        task=crumple_task,
+        version=VERSION,
+    log:
+        f"{LOGS}/crumple/{CELL_FLAT}.log",
+    benchmark:
+        f"{BENCHMARKS}/crumple/{CELL_FLAT}.tsv"
+    resources:
+        mem_mb=1000,
+    message:
+        "crumple {wildcards.thickness} {wildcards.overlength} seed {wildcards.seed}"
+    shell:
+        "{RUN}/crumple.py {params.task:q} {output} > {log} 2>&1"
+
+
+rule response:
+    input:
+        compiled=ancient(rules.compile.output),
+        crumple=rules.crumple.output,
+    output:
+        f"{RESULTS}/realisations/{CELL}/response.nc",
+    params:
+        task=response_task,
+        version=VERSION,
+    # Finished realisations first: an interrupted study then holds whole ones.
+    priority: 1
+    log:
+        f"{LOGS}/response/{CELL_FLAT}.log",
+    benchmark:
+        f"{BENCHMARKS}/response/{CELL_FLAT}.tsv"
+    resources:
+        mem_mb=1000,
+    message:
+        "response {wildcards.thickness} {wildcards.overlength} seed {wildcards.seed}"
+    shell:
+        "{RUN}/response.py {params.task:q} {input.crumple} {output} > {log} 2>&1"
+
+
+rule cylinder:
+    input:
+        ancient(rules.compile.output),
+    output:
+        f"{RESULTS}/cylinder.nc",
+    params:
+        study=STUDY.model_dump_json(
+            include={"sheet", "material", "sweep", "mesh", "stiffness"}
+        ),
+        version=VERSION,
+    log:
+        f"{LOGS}/cylinder.log",
+    benchmark:
+        f"{BENCHMARKS}/cylinder.tsv"
+    resources:
+        mem_mb=1000,
+    message:
+        "stiffness of the uncrumpled cylinders"
+    shell:
+        "{RUN}/cylinder.py {params.study:q} {output} > {log} 2>&1"

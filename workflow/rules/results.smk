@@ -1,0 +1,115 @@
+"""From all realisations to the cube, the tables, the figures and the report."""
+
+CRUMPLES = cell_paths(f"{RESULTS}/realisations/{CELL}/crumple.nc")
+RESPONSES = cell_paths(f"{RESULTS}/realisations/{CELL}/response.nc")
+
+# Label of each table in `snakemake --report`; captions in workflow/report.
+TABLES = {
+    "powerlaw": "power law",
+    "stiffness_summary": "stiffness of each configuration",
+    "variability": "coefficient of variation",
+    "variability_law": "coefficient of variation against overlength",
+    "eigenfrequency_law": "first eigenfrequency law",
+}
+FIGURE_FILES = expand(f"{RESULTS}/figures/{{name}}.{{kind}}", name=FIGURES, kind=["png", "svg"])
+
+
+wildcard_constraints:
+    figure="|".join(FIGURES),
+
+
+rule cube:
+    input:
+        cylinder=rules.cylinder.output,
+        crumples=CRUMPLES,
+        responses=RESPONSES,
+    output:
+        f"{RESULTS}/cube.nc",
+    params:
+        study=STUDY.model_dump_json(),
+    log:
+        f"{LOGS}/cube.log",
+    benchmark:
+        f"{BENCHMARKS}/cube.tsv"
+    resources:
+        mem_mb=2000,
+    message:
+        "cube"
+    shell:
+        "{RUN}/cube.py {params.study:q} {RESULTS} {output} > {log} 2>&1"
+
+
+rule tables:
+    input:
+        rules.cube.output,
+    output:
+        [
+            report(
+                f"{RESULTS}/{name}.csv",
+                caption=f"../report/{name}.rst",
+                category="Tables",
+                labels={"table": label},
+            )
+            for name, label in TABLES.items()
+        ],
+    log:
+        f"{LOGS}/tables.log",
+    benchmark:
+        f"{BENCHMARKS}/tables.tsv"
+    resources:
+        mem_mb=1000,
+    message:
+        "tables"
+    shell:
+        "{RUN}/tables.py {input} {RESULTS} > {log} 2>&1"
+
+
+rule figure:
+    input:
+        cube=rules.cube.output,
+        crumples=CRUMPLES,
+    output:
+        png=report(
+            f"{RESULTS}/figures/{{figure}}.png",
+            caption="../report/figure.rst",
+            category="Figures",
+            labels=lambda wildcards: {"figure": FIGURES[wildcards.figure].title},
+        ),
+        svg=f"{RESULTS}/figures/{{figure}}.svg",
+    params:
+        caption=lambda wildcards: FIGURES[wildcards.figure].caption,
+    log:
+        f"{LOGS}/figure/{{figure}}.log",
+    benchmark:
+        f"{BENCHMARKS}/figure/{{figure}}.tsv"
+    resources:
+        mem_mb=1000,
+    message:
+        "figure {wildcards.figure}"
+    shell:
+        "{RUN}/figure.py {wildcards.figure} {input.cube} {output.png} {input.crumples} > {log} 2>&1"
+
+
+rule report:
+    input:
+        cube=rules.cube.output,
+        tables=rules.tables.output,
+        figures=FIGURE_FILES,
+        crumples=CRUMPLES,
+    output:
+        report(
+            f"{RESULTS}/report.html",
+            caption="../report/report.rst",
+            category="Report",
+            labels={"page": STUDY.report.title},
+        ),
+    log:
+        f"{LOGS}/report.log",
+    benchmark:
+        f"{BENCHMARKS}/report.tsv"
+    resources:
+        mem_mb=1000,
+    message:
+        "report"
+    shell:
+        "{RUN}/report.py {RESULTS} {output} {input.crumples} > {log} 2>&1"

@@ -1,0 +1,10 @@
+"""Crumple one realisation: crumple.py TASK_JSON CRUMPLE_NC."""
+
+import sys
+from pathlib import Path
+
+from foilstudy.config import CrumpleTask
+from foilstudy.realisation import crumple
+
+task_json, crumple_nc = sys.argv[1:]
+crumple(CrumpleTask.model_validate_json(task_json), Path(crumple_nc))

@@ -1,0 +1,21 @@
+"""The page of a study: report.py RESULTS REPORT_HTML CRUMPLE_NC..."""
+
+import sys
+from pathlib import Path
+
+from foilstudy.report import ReportInputs, write_report
+
+results, report_html, *crumples = map(Path, sys.argv[1:])
+write_report(
+    ReportInputs(
+        cube_path=results / "cube.nc",
+        powerlaw_csv=results / "powerlaw.csv",
+        variability_csv=results / "variability.csv",
+        eigenfrequency_csv=results / "eigenfrequency_law.csv",
+        stiffness_summary_csv=results / "stiffness_summary.csv",
+        figures_dir=results / "figures",
+        crumple_paths=crumples,
+        benchmarks_dir=results / "benchmarks",
+    ),
+    report_html,
+)

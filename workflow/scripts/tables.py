@@ -1,0 +1,9 @@
+"""Fitted laws and their spread as CSV: tables.py CUBE_NC FOLDER."""
+
+import sys
+from pathlib import Path
+
+from foilstudy.statistics import write_tables
+
+cube_nc, folder = map(Path, sys.argv[1:])
+write_tables(cube_nc, folder)
