@@ -16,8 +16,9 @@ import pytest
 import xarray as xr
 
 from foilstudy.report import ReportInputs, write_report
-from foilstudy.report.findings import Exponent, mesh_sentence
+from foilstudy.report.findings import mesh_sentence
 from foilstudy.report.health import assess
+from foilstudy.report.laws import Exponent
 from foilstudy.report.numerals import fixed, number, percent_range
 from foilstudy.report.viewer import choose_shapes, decode_points, pack_shape
 from foilstudy.statistics import write_tables

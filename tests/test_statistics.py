@@ -151,9 +151,9 @@ def test_published_laws_reproduce_the_quoted_stiffness():
 def test_powerlaw_table_has_every_direction_and_source():
     table = statistics.powerlaw_table(noisy_cube())
     assert len(table) == 8
-    sources = {"simulation", "simulation_refined", "published_simulation", "published_experiment"}
+    sources = {"simulation", "simulation refined", "published simulation", "published experiment"}
     assert set(table["source"]) == sources
-    row = table.set_index(["direction", "source"]).loc[("radial", "published_experiment")]
+    row = table.set_index(["direction", "source"]).loc[("radial", "published experiment")]
     assert (row["beta"], row["beta_se"]) == (-0.55, 0.04)
     simulated = table[table["source"] == "simulation"]
     assert (simulated["beta_se_clustered"] > 0).all()

@@ -241,12 +241,6 @@ class Relaxation(Section):
         ge=0,
         le=1,
     )
-    mass_scaling: Literal["spectral"] = unit_field(
-        "choice", "Fictitious mass that sets the stable step.", "spectral"
-    )
-    damping: Literal["adaptive"] = unit_field(
-        "choice", "Viscous damping from the Rayleigh quotient of the motion.", "adaptive"
-    )
     history_interval: int = unit_field(
         "steps", "Steps between two entries of the history.", 20, ge=1, le=1_000_000
     )

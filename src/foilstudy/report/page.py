@@ -16,7 +16,7 @@ import yaml
 from foilstudy.figures import FIGURES
 from foilstudy.figures.registry import PNG_DPI
 from foilstudy.reference import published
-from foilstudy.report import findings, numerals, viewer
+from foilstudy.report import findings, laws, numerals, viewer
 from foilstudy.report.health import assess
 
 TEMPLATES = Path(__file__).parent / "templates"
@@ -136,15 +136,15 @@ def _content(inputs: ReportInputs, cube: xr.Dataset, folder: Path) -> dict:
         "title": config.get("report", {}).get("title", "Crumpled foil"),
         "study": cube.attrs.get("study", ""),
         "scope": _scope(cube, config),
-        "laws": findings.read_laws(powerlaw, summary),
-        "middle": findings.middle_of_sweep(summary),
+        "laws": laws.read_laws(powerlaw, summary),
+        "middle": laws.middle_of_sweep(summary),
         "stiffness_words": findings.stiffness_findings(summary),
         "prestress_words": findings.prestress_findings(cube),
         "variability_words": findings.variability_findings(variability),
         "dynamic_words": findings.dynamic_findings(cube),
         "eigenfrequency_words": findings.eigenfrequency_findings(eigenfrequency, cube),
-        "bend_words": findings.bend_sentence(powerlaw),
-        "fit_words": findings.fit_findings(powerlaw),
+        "bend_words": laws.bend_sentence(powerlaw),
+        "fit_words": laws.fit_findings(powerlaw),
         "mesh_words": findings.mesh_sentence(health, _refinements(config), directions),
         "shape_words": findings.shape_findings(cube, published()),
         "health": health,

@@ -12,7 +12,7 @@ from foilstudy.statistics.regression import LinearFit, fit_linear
 
 SIMULATED = {
     "simulation": "static_stiffness",
-    "simulation_refined": "static_stiffness_converged",
+    "simulation refined": "static_stiffness_converged",
 }
 """Source of a simulated power law and the cube variable it is fitted to."""
 
@@ -86,7 +86,7 @@ def simulated_law(cube, direction: str, source: str = "simulation") -> PowerLaw:
     direction
         ``axial`` or ``radial``.
     source
-        ``simulation`` (the crumpled mesh) or ``simulation_refined`` (the same shapes refined).
+        ``simulation`` (the crumpled mesh) or ``simulation refined`` (the same shapes refined).
     """
     return fit_power_law(samples(cube, SIMULATED[source], direction=direction))
 
@@ -117,7 +117,7 @@ def powerlaw_table(cube):
             )
         for source, law in published().power_laws[direction].items():
             rows.append(
-                {"direction": direction, "source": f"published_{source}"} | _published_row(law)
+                {"direction": direction, "source": f"published {source}"} | _published_row(law)
             )
     return pd.DataFrame(rows)
 

@@ -46,7 +46,7 @@
     }`;
 
   // Lengths are in radii of the cylinder, so that every case is seen at the same scale.
-  const DISTANCE = 7, HALF_WIDTH = 1.6;
+  const DISTANCE = 7;
   const home = { turn: 0.5, tilt: 0.35, zoom: 1 };
   const view = Object.assign({}, home);
   let program, uniforms, buffers, mesh, waiting = false;
@@ -175,6 +175,7 @@
       high = Math.max(high, position[k]);
     }
     for (let k = 2; k < position.length; k += 3) position[k] -= (low + high) / 2;
+    mesh.halfWidth = Math.max(1.3, 0.55 + 0.5 * (high - low)); // the tall cylinder fits as well
     for (const [name, values] of Object.entries({ position, normal, displacement })) {
       gl.bindBuffer(gl.ARRAY_BUFFER, buffers[name]);
       gl.bufferData(gl.ARRAY_BUFFER, values, gl.DYNAMIC_DRAW);
@@ -208,7 +209,7 @@
     gl.uniformMatrix3fv(uniforms.rotation, false,
       [ct, -st * se, st * ce, st, ct * se, -ct * ce, 0, ce, se]);
     const near = 1, far = 13, aspect = width / height;
-    const focal = DISTANCE / HALF_WIDTH * view.zoom * Math.min(aspect, 1);
+    const focal = DISTANCE / mesh.halfWidth * view.zoom * Math.min(aspect, 1);
     gl.uniformMatrix4fv(uniforms.projection, false, [
       focal / aspect, 0, 0, 0, 0, focal, 0, 0,
       0, 0, -(far + near) / (far - near), -1, 0, 0, -2 * far * near / (far - near), 0]);

@@ -1,0 +1,188 @@
+"""Measure what the package costs and write benchmarks/results.md.
+
+    .venv/bin/python benchmarks/run.py                                 parts of a job, a minute
+    .venv/bin/python benchmarks/run.py config/config.yaml [...]        whole studies as well
+
+Medians of several runs on one core; studies with `snakemake -j2` into a temporary folder. Run it on
+a machine that does nothing else.
+"""
+
+from __future__ import annotations
+
+import os
+
+for variable in ("OMP", "MKL", "OPENBLAS", "NUMBA"):
+    os.environ[f"{variable}_NUM_THREADS"] = "1"
+
+import resource  # noqa: E402
+import statistics  # noqa: E402
+import subprocess  # noqa: E402
+import sys  # noqa: E402
+import tempfile  # noqa: E402
+import time  # noqa: E402
+from collections.abc import Callable  # noqa: E402
+from pathlib import Path  # noqa: E402
+
+import numpy as np  # noqa: E402
+
+from foilstudy.config import load_config  # noqa: E402
+from foilstudy.provenance import machine  # noqa: E402
+from foilstudy.realisation import crumple, respond  # noqa: E402
+from foilstudy.realisation.record import read_record  # noqa: E402
+from foilstudy.realisation.scene import foil_of, patch_of  # noqa: E402
+from foilstudy.patch import cylinder_control_points  # noqa: E402
+from foilstudy.relaxation.spectral_mass import SpectralMass  # noqa: E402
+from foilstudy.shell.sheet_model import SheetModel  # noqa: E402
+from foilstudy.warmup import compile_kernels  # noqa: E402
+
+ROOT = Path(__file__).parents[1]
+REPEATS = 7
+
+
+def task_study(height_mm: float, **relaxation):
+    """A study of one realisation, 500 um thick, at 5 mm."""
+    return load_config(
+        {
+            "study": {"name": "benchmark"},
+            "sweep": {
+                "thickness_um": [500],
+                "reference_height_mm": [height_mm],
+                "realisations": 1,
+            },
+            "relaxation": relaxation,
+        }
+    )
+
+
+def median_seconds(call: Callable[[], object], inner: int = 1) -> float:
+    """Median time of one call, over `REPEATS` batches of `inner` calls."""
+    times = []
+    for _ in range(REPEATS):
+        start = time.perf_counter()
+        for _ in range(inner):
+            call()
+        times.append((time.perf_counter() - start) / inner)
+    return statistics.median(times)
+
+
+def kernel_rows() -> list[tuple[str, str, str]]:
+    """Force evaluation and mass solve per element."""
+    study = task_study(170)
+    task = study.crumple_task(study.cells()[0])
+    foil, patch = foil_of(task), patch_of(task)
+    reference = cylinder_control_points(patch, foil.diameter)
+    sheet = SheetModel(patch, reference, foil.material, foil.thickness, 0.05)
+    points = reference + 1e-3 * np.random.default_rng(0).standard_normal(reference.shape)
+    force = np.empty_like(points)
+    mass = SpectralMass(sheet)
+    momentum = np.ascontiguousarray(force[:, 2:-2])
+    elements = patch.elements_around * patch.elements_along
+    per_force = median_seconds(lambda: sheet.force(points, force), 200) / elements
+    per_solve = median_seconds(lambda: mass.velocity(momentum), 200) / elements
+    return [
+        ("force evaluation, per element", f"{1e9 * per_force:.0f} ns", "under 60 ns"),
+        ("mass solve, per element", f"{1e9 * per_solve:.0f} ns", ""),
+    ]
+
+
+def crumple_rows(folder: Path) -> list[tuple[str, str, str]]:
+    """One crumple of exactly 4000 steps, then whole realisations."""
+    study = task_study(
+        170, ramp_steps=2000, relaxation_steps_max=2000, residual_tolerance=1e-15
+    )
+    task = study.crumple_task(study.cells()[0])
+    seconds = median_seconds(lambda: crumple(task, folder / "fixed.nc"))
+    rows = [
+        ("crumple, 0.17 m, 5 mm, 4000 steps", f"{seconds:.2f} s", "under 3 s"),
+    ]
+    for height in (135, 170, 250):
+        study = task_study(height)
+        (cell,) = study.cells()
+        paths = folder / f"{height}.nc", folder / f"{height}-response.nc"
+        crumple(study.crumple_task(cell), paths[0])
+        respond(study.response_task(cell), *paths)
+        crumpled, responded = read_record(paths[0])[0], read_record(paths[1])[0]
+        rows.append(
+            (
+                f"realisation, 500 um, {height / 1000:g} m: crumple to 1e-8 "
+                f"({crumpled['steps']:.0f} steps), static, dynamic",
+                f"{crumpled['seconds_crumple']:.1f}, {responded['seconds_static']:.1f}, "
+                f"{responded['seconds_dynamic']:.1f} s",
+                "",
+            )
+        )
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    return [*rows, ("peak memory of the above", f"{peak:.0f} MB", "under 1000 MB")]
+
+
+def overhead_rows(folder: Path) -> list[tuple[str, str, str]]:
+    """Time of a job's process beyond the physics that it reports."""
+    study = task_study(170, ramp_steps=100, relaxation_steps_max=10)
+    (cell,) = study.cells()
+    crumple_nc, response_nc = folder / "overhead.nc", folder / "overhead-response.nc"
+    jobs = {
+        "crumple": (study.crumple_task(cell), [crumple_nc], ("seconds_crumple",)),
+        "response": (
+            study.response_task(cell),
+            [crumple_nc, response_nc],
+            ("seconds_static", "seconds_dynamic"),
+        ),
+    }
+    rows = []
+    for name, (task, paths, physics) in jobs.items():
+        script = ROOT / "workflow" / "scripts" / f"{name}.py"
+        command = [sys.executable, "-P", str(script), task.model_dump_json(), *map(str, paths)]
+        extra = []
+        for _ in range(REPEATS):
+            start = time.perf_counter()
+            subprocess.run(command, check=True, capture_output=True)
+            wall = time.perf_counter() - start
+            values, _ = read_record(paths[-1])
+            extra.append(wall - sum(float(values[key]) for key in physics))
+        rows.append(
+            (
+                f"overhead of a {name} job beyond its physics",
+                f"{statistics.median(extra):.2f} s",
+                "under 1.5 s",
+            )
+        )
+    return rows
+
+
+def study_rows(configs: list[str]) -> list[tuple[str, str, str]]:
+    """Wall time of whole studies from nothing to the report."""
+    targets = {"default": "under 180 s", "thesis": "under 900 s", "tiny": "under 30 s"}
+    rows = []
+    for config in configs:
+        name = load_config(config).study.name
+        with tempfile.TemporaryDirectory() as folder:
+            start = time.perf_counter()
+            subprocess.run(
+                [
+                    str(Path(sys.executable).with_name("snakemake")),
+                    *("-j2", "--snakefile", str(ROOT / "Snakefile")),
+                    *("--directory", folder, "--configfile", str(Path(config).resolve())),
+                ],
+                check=True,
+                cwd=ROOT,
+            )
+            wall = time.perf_counter() - start
+        rows.append((f"study `{name}`, two cores", f"{wall:.0f} s", targets.get(name, "")))
+    return rows
+
+
+def main(configs: list[str]) -> None:
+    """Measure and write the table."""
+    compile_kernels()
+    with tempfile.TemporaryDirectory() as folder:
+        rows = kernel_rows() + crumple_rows(Path(folder)) + overhead_rows(Path(folder))
+    rows += study_rows(configs)
+    lines = ["| | measured | target |", "|---|---|---|"]
+    lines += [f"| {what} | {value} | {target} |" for what, value, target in rows]
+    text = f"# Measured\n\n{machine()}. Medians of {REPEATS} runs.\n\n" + "\n".join(lines) + "\n"
+    (ROOT / "benchmarks" / "results.md").write_text(text, encoding="utf-8")
+    print(text)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

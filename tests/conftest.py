@@ -1,0 +1,95 @@
+"""Small scenes shared by the physics tests; lengths in m."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from foilstudy.imperfection import imperfect_cylinder
+from foilstudy.patch import Patch, cylinder_control_points
+from foilstudy.relaxation import Ramp, RelaxationResult, Scheme, StoppingRule, relax
+from foilstudy.relaxation.damping import AdaptiveViscousDamping
+from foilstudy.relaxation.spectral_mass import SpectralMass
+from foilstudy.sheet import Foil, Imperfection, Material
+from foilstudy.shell.sheet_model import SheetModel
+from foilstudy.shell.tangent import mass_matrix, stiffness_matrix
+from foilstudy.stiffness import InterfaceSystem, Rings, condense
+
+DIAMETER, REFERENCE_HEIGHT, GAP_HEIGHT = 0.2, 0.17, 0.13
+THICKNESS = 500e-6
+FEP = Material(youngs_modulus=650e6, poisson_ratio=0.4, density=2150.0, yield_stress=12e6)
+FOIL = Foil(DIAMETER, REFERENCE_HEIGHT, GAP_HEIGHT, THICKNESS, FEP)
+
+
+def cylinder(element_size, *, material=FEP, thickness=THICKNESS, height=REFERENCE_HEIGHT, chi=0.05):
+    """Perfect cylinder as a sheet."""
+    patch = Patch.for_cylinder(DIAMETER, height, element_size)
+    points = cylinder_control_points(patch, DIAMETER)
+    return SheetModel(patch, points, material, thickness, chi)
+
+
+def imperfect_sheet(element_size, *, material=FEP, thickness=THICKNESS, seed=0, chi=0.05):
+    """Cylinder with a Gaussian imperfection of 10 um."""
+    foil = Foil(DIAMETER, REFERENCE_HEIGHT, GAP_HEIGHT, thickness, material)
+    patch = Patch.for_cylinder(DIAMETER, REFERENCE_HEIGHT, element_size)
+    imperfection = Imperfection("gaussian", 10e-6, 0.0, (seed, 500_000, 170_000))
+    perfect = cylinder_control_points(patch, DIAMETER)
+    points = imperfect_cylinder(patch, perfect, foil, imperfection)
+    return SheetModel(patch, points, material, thickness, chi)
+
+
+def relaxed(sheet, shortening, *, ramp_steps, steps_max, tolerance=1e-8, safety=1.5):
+    """Relaxation with the damping of a study."""
+    scheme = Scheme(SpectralMass(sheet, safety), AdaptiveViscousDamping(1.0),
+                    AdaptiveViscousDamping(0.25))  # fmt: skip
+    rule = StoppingRule(tolerance, tolerance, steps_max)
+    return relax(sheet, scheme, Ramp(shortening, ramp_steps), rule)
+
+
+def rotation(axis, angle):
+    """Rotation matrix about an axis (Rodrigues)."""
+    x, y, z = np.asarray(axis, float) / np.linalg.norm(axis)
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+
+
+@dataclass(frozen=True)
+class Crumple:
+    """A crumpled equilibrium and the sheet that is stress-free in its shape."""
+
+    sheet: SheetModel
+    result: RelaxationResult
+    stress_free: SheetModel
+    stiffness: InterfaceSystem
+    mass: InterfaceSystem
+
+    @property
+    def points(self):
+        return self.result.points
+
+
+@pytest.fixture(scope="session")
+def coarse_crumple() -> Crumple:
+    """500 um, 170 mm, 10 mm elements: a converged crumple that takes a second."""
+    sheet = imperfect_sheet(10e-3)
+    result = relaxed(sheet, REFERENCE_HEIGHT - GAP_HEIGHT, ramp_steps=1000, steps_max=20000)
+    assert result.status == "converged", result.message
+    patch, points = sheet.patch, result.points
+    stress_free = SheetModel(patch, points, FEP, THICKNESS, 0.05)
+    rings = Rings.of(patch, points)
+    mass = mass_matrix(patch, FEP.density * THICKNESS * sheet.element_areas())
+    return Crumple(
+        sheet,
+        result,
+        stress_free,
+        InterfaceSystem.split(stiffness_matrix(stress_free), rings),
+        InterfaceSystem.split(mass, rings),
+    )
+
+
+@pytest.fixture(scope="session")
+def coarse_static(coarse_crumple):
+    """Static condensation of the stress-free coarse crumple."""
+    return condense(coarse_crumple.stiffness)

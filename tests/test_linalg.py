@@ -1,0 +1,210 @@
+"""Factorisation, inertia and eigenpairs against dense linear algebra."""
+
+import numpy as np
+import pytest
+import scipy.linalg
+import scipy.sparse as sparse
+from conftest import cylinder
+
+from foilstudy.linalg import SolveError, backend, factorisation, factorise, modes_below, pardiso
+from foilstudy.linalg.pardiso import PardisoFactorisation
+from foilstudy.linalg.superlu import SuperLUFactorisation
+from foilstudy.shell.tangent import mass_matrix, stiffness_matrix
+from foilstudy.stiffness import InterfaceSystem, Rings
+
+BACKENDS = [
+    pytest.param(
+        PardisoFactorisation,
+        marks=pytest.mark.skipif(not pardiso.available(), reason="no MKL runtime"),
+        id="pardiso",
+    ),
+    pytest.param(SuperLUFactorisation, id="superlu"),
+]
+
+
+def plate(rows, columns, shift=0.0):
+    """Biharmonic operator on a grid: symmetric, sparse, with the stencil of a plate."""
+
+    def second(n):
+        return sparse.diags_array([-np.ones(n - 1), 2 * np.ones(n), -np.ones(n - 1)],
+                                  offsets=[-1, 0, 1])  # fmt: skip
+
+    laplacian = sparse.kronsum(second(rows), second(columns))
+    return (laplacian @ laplacian - shift * sparse.eye_array(rows * columns)).tocsr()
+
+
+def clamped_cylinder(element_size=20e-3):
+    """Stiffness and mass of the interior of a clamped cylinder."""
+    sheet = cylinder(element_size)
+    rings = Rings.of(sheet.patch, sheet.reference)
+    masses = sheet.material.density * sheet.thickness * sheet.element_areas()
+    matrices = stiffness_matrix(sheet), mass_matrix(sheet.patch, masses)
+    return tuple(InterfaceSystem.split(matrix, rings).interior for matrix in matrices)
+
+
+@pytest.fixture(params=BACKENDS)
+def solver(request, monkeypatch):
+    """Every solver in turn, also behind `factorise`."""
+    name = "pardiso" if request.param is PardisoFactorisation else "superlu"
+    monkeypatch.setattr(factorisation, "backend", lambda: name)
+    return request.param
+
+
+@pytest.mark.parametrize("shift", [0.0, 3.0])
+def test_solution_agrees_with_dense(solver, shift):
+    matrix = plate(9, 11, shift)
+    rhs = np.random.default_rng(0).standard_normal((99, 5))
+    factor = solver(matrix)
+    expected = np.linalg.solve(matrix.toarray(), rhs)
+    error = 10 * np.finfo(float).eps * np.linalg.cond(matrix.toarray()) * np.abs(expected).max()
+    np.testing.assert_allclose(factor.solve(rhs), expected, rtol=0, atol=error)
+    np.testing.assert_allclose(factor.solve(rhs[:, 0]), expected[:, 0], rtol=0, atol=error)
+
+
+def test_solvers_agree_on_a_shell():
+    if not pardiso.available():
+        pytest.skip("no MKL runtime")
+    stiffness, _ = clamped_cylinder()
+    rhs = np.random.default_rng(0).standard_normal(stiffness.shape[0])
+    first, second = (s(stiffness).solve(rhs) for s in (PardisoFactorisation, SuperLUFactorisation))
+    condition = np.linalg.cond(stiffness.toarray())
+    assert np.linalg.norm(first - second) < 1e-15 * condition * np.linalg.norm(first)
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.5, 3.0, 17.3, 100.0])
+def test_inertia_of_a_shifted_operator(solver, shift):
+    matrix = plate(9, 11, shift)
+    expected = int((np.linalg.eigvalsh(matrix.toarray()) < 0).sum())
+    assert solver(matrix).negative_eigenvalues == expected
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_inertia_of_a_random_indefinite_matrix(solver, seed):
+    random = sparse.random_array((80, 80), density=0.05, rng=np.random.default_rng(seed))
+    matrix = (random + random.T + sparse.diags_array(np.linspace(-2, 2, 80))).tocsr()
+    expected = int((np.linalg.eigvalsh(matrix.toarray()) < 0).sum())
+    assert solver(matrix).negative_eigenvalues == expected
+
+
+def test_inertia_where_the_diagonal_offers_no_pivot(solver):
+    """A saddle point: the negative eigenvalues do not show on any diagonal."""
+    constraint = np.random.default_rng(0).standard_normal((4, 12))
+    dense = np.block([[np.zeros((12, 12)), constraint.T], [constraint, np.zeros((4, 4))]])
+    dense += np.diag(np.r_[np.tile([1.0, 0.0], 6), np.zeros(4)])
+    expected = int((np.linalg.eigvalsh(dense) < 0).sum())
+    try:
+        found = solver(sparse.csr_array(dense)).negative_eigenvalues
+    except SolveError:
+        return  # refusing is honest, a wrong count is not
+    assert found == expected
+
+
+def test_inertia_of_a_shell_counts_its_modes(solver):
+    stiffness, mass = clamped_cylinder(25e-3)
+    values = scipy.linalg.eigh(stiffness.toarray(), mass.toarray(), eigvals_only=True)
+    for count in (0, 1, 2, 11, 60):
+        limit = 0.5 * (values[count - 1] + values[count]) if count else 0.5 * values[0]
+        expected = int((values < limit).sum())
+        assert solver((stiffness - limit * mass).tocsr()).negative_eigenvalues == expected
+
+
+def test_a_singular_matrix_is_refused(solver):
+    ring = 2 * np.eye(50) - np.roll(np.eye(50), 1, axis=0) - np.roll(np.eye(50), -1, axis=0)
+    with pytest.raises(SolveError):
+        factorise(sparse.csr_array(ring))
+
+
+def test_a_sheet_without_rings_is_refused(solver):
+    with pytest.raises(SolveError):
+        factorise(stiffness_matrix(cylinder(20e-3)))
+
+
+def test_a_matrix_with_an_empty_row_is_refused(solver):
+    matrix = sparse.diags_array(np.r_[1.0, 0.0, np.ones(8)]).tocsr()
+    with pytest.raises(SolveError):
+        factorise(matrix)
+
+
+def test_a_matrix_that_is_not_finite_is_refused(solver):
+    matrix = plate(4, 4)
+    matrix.data[5] = np.nan
+    with pytest.raises(SolveError):
+        factorise(matrix)
+
+
+def test_the_same_bits_every_time(solver):
+    stiffness, mass = clamped_cylinder()
+    rhs = np.random.default_rng(0).standard_normal((stiffness.shape[0], 12))
+    assert np.array_equal(factorise(stiffness).solve(rhs), factorise(stiffness).solve(rhs))
+    limit = (2 * np.pi * 500) ** 2
+    first, second = (modes_below(stiffness, mass, limit) for _ in range(2))
+    assert np.array_equal(first.eigenvalues, second.eigenvalues)
+    assert np.array_equal(first.shapes, second.shapes)
+
+
+def test_the_solver_in_use_is_named():
+    assert backend() == ("pardiso" if pardiso.available() else "superlu")
+
+
+def assert_are_all_modes(modes, stiffness, mass, limit):
+    """Against the dense spectrum: exactly those below the limit, orthonormal, true pairs."""
+    values = scipy.linalg.eigh(stiffness.toarray(), mass.toarray(), eigvals_only=True)
+    expected = values[values < limit]
+    assert modes.eigenvalues.size == expected.size
+    assert modes.shapes.shape == (stiffness.shape[0], expected.size)
+    # Ritz values err by the square of the residual tolerance, dense ones by their largest value
+    atol = 1e-11 * limit + 100 * np.finfo(float).eps * values[-1]
+    np.testing.assert_allclose(modes.eigenvalues, expected, rtol=0, atol=atol)
+    assert (np.diff(modes.eigenvalues) >= 0).all()
+    gram = modes.shapes.T @ (mass @ modes.shapes)
+    np.testing.assert_allclose(gram, np.eye(expected.size), rtol=0, atol=1e-12)
+    reduced = modes.shapes.T @ (stiffness @ modes.shapes)
+    np.testing.assert_allclose(reduced, np.diag(modes.eigenvalues), rtol=0, atol=1e-5 * limit)
+
+
+@pytest.mark.parametrize("limit_hz", [150, 400, 900])
+def test_modes_of_a_clamped_cylinder(solver, limit_hz):
+    """Its modes come in pairs, cos and sin of the same wave."""
+    stiffness, mass = clamped_cylinder()
+    limit = (2 * np.pi * limit_hz) ** 2
+    modes = modes_below(stiffness, mass, limit)
+    assert_are_all_modes(modes, stiffness, mass, limit)
+
+
+def test_modes_of_a_free_cylinder(solver):
+    """Six rigid modes at zero, then pairs."""
+    sheet = cylinder(20e-3)
+    masses = sheet.material.density * sheet.thickness * sheet.element_areas()
+    stiffness, mass = stiffness_matrix(sheet), mass_matrix(sheet.patch, masses)
+    limit = (2 * np.pi * 60) ** 2
+    modes = modes_below(stiffness, mass, limit)
+    assert_are_all_modes(modes, stiffness, mass, limit)
+    assert (np.abs(modes.eigenvalues[:6]) < 1e-6 * limit).all()
+    assert modes.eigenvalues[6] > 1e-3 * limit
+
+
+@pytest.mark.parametrize("copies", [2, 3, 8])
+def test_repeated_eigenvalues_are_all_found(solver, copies):
+    one = plate(8, 12)
+    stiffness = sparse.kron(sparse.eye_array(copies), one).tocsr()
+    mass = sparse.diags_array(np.full(96 * copies, 2.0)).tocsr()
+    limit = 2.0
+    modes = modes_below(stiffness, mass, limit)
+    assert modes.eigenvalues.size % copies == 0
+    assert_are_all_modes(modes, stiffness, mass, limit)
+
+
+def test_no_mode_below_the_limit(solver):
+    stiffness, mass = clamped_cylinder()
+    modes = modes_below(stiffness, mass, 1.0)
+    assert modes.eigenvalues.shape == (0,)
+    assert modes.shapes.shape == (stiffness.shape[0], 0)
+
+
+@pytest.mark.parametrize("rows, columns", [(2, 3), (4, 5), (6, 7)])
+def test_every_mode_of_a_small_system(solver, rows, columns):
+    """The Krylov space then is the whole space, whose size need not be a number of blocks."""
+    stiffness = plate(rows, columns)
+    mass = sparse.eye_array(rows * columns).tocsr()
+    limit = 100.0
+    assert_are_all_modes(modes_below(stiffness, mass, limit), stiffness, mass, limit)
