@@ -26,11 +26,11 @@ from pathlib import Path  # noqa: E402
 import numpy as np  # noqa: E402
 
 from foilstudy.config import load_config  # noqa: E402
+from foilstudy.patch import cylinder_control_points  # noqa: E402
 from foilstudy.provenance import machine  # noqa: E402
 from foilstudy.realisation import crumple, respond  # noqa: E402
 from foilstudy.realisation.record import read_record  # noqa: E402
 from foilstudy.realisation.scene import foil_of, patch_of  # noqa: E402
-from foilstudy.patch import cylinder_control_points  # noqa: E402
 from foilstudy.relaxation.spectral_mass import SpectralMass  # noqa: E402
 from foilstudy.shell.sheet_model import SheetModel  # noqa: E402
 from foilstudy.warmup import compile_kernels  # noqa: E402
@@ -87,9 +87,7 @@ def kernel_rows() -> list[tuple[str, str, str]]:
 
 def crumple_rows(folder: Path) -> list[tuple[str, str, str]]:
     """One crumple of exactly 4000 steps, then whole realisations."""
-    study = task_study(
-        170, ramp_steps=2000, relaxation_steps_max=2000, residual_tolerance=1e-15
-    )
+    study = task_study(170, ramp_steps=2000, relaxation_steps_max=2000, residual_tolerance=1e-15)
     task = study.crumple_task(study.cells()[0])
     seconds = median_seconds(lambda: crumple(task, folder / "fixed.nc"))
     rows = [

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from synthetic import make_cube, write_crumple
 
-from foilstudy.figures import FIGURES, draw_all, draw_figure
+from foilstudy.figures import FIGURES, draw_figure, draw_figures
 from foilstudy.figures.crumples import Shape, catalogue, read_shape, typical_configuration
 from foilstudy.figures.render import View, render
 from foilstudy.figures.style import spread
@@ -116,15 +116,12 @@ def test_unknown_figure_is_named():
         draw_figure("nothing", "cube.nc", [], "stem")
 
 
-def test_draw_all_writes_png_and_svg_of_every_figure(crumple_paths, tmp_path, monkeypatch):
-    import foilstudy.figures.registry as registry
-
-    drawn = []
-    monkeypatch.setattr(
-        registry, "draw_figure", lambda name, cube, crumples, stem: drawn.append(stem.name) or ()
-    )
-    draw_all("cube.nc", crumple_paths, tmp_path)
-    assert drawn == list(FIGURES)
+def test_draw_figures_writes_png_and_svg_of_each(crumple_paths, tmp_path):
+    cube_path = tmp_path / "cube.nc"
+    make_cube(cv=scatter, seeds=2).to_netcdf(cube_path)
+    paths = draw_figures(["energy", "seeds"], cube_path, crumple_paths, tmp_path)
+    assert [path.name for path in paths] == ["energy.png", "energy.svg", "seeds.png", "seeds.svg"]
+    assert all(path.stat().st_size > 1000 for path in paths)
 
 
 def test_stiffness_figure_shows_mean_fit_and_published_law():

@@ -154,9 +154,7 @@ def _coordinates(study: StudyConfig) -> dict[str, tuple[str, np.ndarray, dict]]:
         "frequency": coordinate("frequency", grid, "Hz", "frequency"),
         "interface_dof": ("interface_dof", np.asarray(DOF_NAMES), names),
         "interface_dof_in": ("interface_dof_in", np.asarray(DOF_NAMES), names),
-        "mode": coordinate(
-            "mode", np.arange(1, options.eigenfrequencies + 1), "1", "mode number"
-        ),
+        "mode": coordinate("mode", np.arange(1, options.eigenfrequencies + 1), "1", "mode number"),
     }
 
 

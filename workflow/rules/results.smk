@@ -13,9 +13,10 @@ TABLES = {
 }
 FIGURE_FILES = expand(f"{RESULTS}/figures/{{name}}.{{kind}}", name=FIGURES, kind=["png", "svg"])
 
-
-wildcard_constraints:
-    figure="|".join(FIGURES),
+# Figures share a job with those of the same input: loading what draws one costs more than drawing.
+FIGURE_JOBS = {"cube": {}, "shapes": {}}
+for name, figure in FIGURES.items():
+    FIGURE_JOBS["cube" if "cube" in figure.needs else "shapes"][name] = figure
 
 
 rule cube:
@@ -64,30 +65,40 @@ rule tables:
         "{RUN}/tables.py {input} {RESULTS} > {log} 2>&1"
 
 
-rule figure:
-    input:
-        cube=rules.cube.output,
-        crumples=CRUMPLES,
-    output:
-        png=report(
-            f"{RESULTS}/figures/{{figure}}.png",
-            caption="../report/figure.rst",
-            category="Figures",
-            labels=lambda wildcards: {"figure": FIGURES[wildcards.figure].title},
-        ),
-        svg=f"{RESULTS}/figures/{{figure}}.svg",
-    params:
-        caption=lambda wildcards: FIGURES[wildcards.figure].caption,
-    log:
-        f"{LOGS}/figure/{{figure}}.log",
-    benchmark:
-        f"{BENCHMARKS}/figure/{{figure}}.tsv"
-    resources:
-        mem_mb=1000,
-    message:
-        "figure {wildcards.figure}"
-    shell:
-        "{RUN}/figure.py {wildcards.figure} {input.cube} {output.png} {input.crumples} > {log} 2>&1"
+for source, figures in FIGURE_JOBS.items():
+
+    rule:
+        name:
+            f"figures_{source}"
+        input:
+            cube=rules.cube.output,
+            crumples=CRUMPLES if source == "shapes" else [],
+        output:
+            [
+                report(
+                    f"{RESULTS}/figures/{name}.png",
+                    caption="../report/figures.rst",
+                    category="Figures",
+                    labels={"figure": figure.title},
+                )
+                for name, figure in figures.items()
+            ],
+            expand(f"{RESULTS}/figures/{{name}}.svg", name=figures),
+        params:
+            names=list(figures),
+            captions={figure.title: figure.caption for figure in figures.values()},
+            version=VERSION,
+        log:
+            f"{LOGS}/figures_{source}.log",
+        benchmark:
+            f"{BENCHMARKS}/figures_{source}.tsv"
+        resources:
+            mem_mb=1000,
+        message:
+            f"figures of the {source}"
+        shell:
+            "{RUN}/figures.py {RESULTS}/figures {input.cube}"
+            " --figures {params.names} --crumples {input.crumples} > {log} 2>&1"
 
 
 rule report:

@@ -21,9 +21,7 @@ CONSTANTS = ("youngs_modulus_mpa", "poisson_ratio", "density_kg_m3", "yield_stre
 
 def unit_field(unit: str, description: str, default: Any = ..., **constraints: Any) -> Any:
     """Field of a section with its unit recorded for the schema and the reference page."""
-    return Field(
-        default, description=description, json_schema_extra={"unit": unit}, **constraints
-    )
+    return Field(default, description=description, json_schema_extra={"unit": unit}, **constraints)
 
 
 class Section(BaseModel):

@@ -88,12 +88,8 @@ def project(structure: Structure, basis: np.ndarray, retained_modes: int) -> Red
     mass = np.zeros((size, size))
     stiffness[:INTERFACE, :INTERFACE] = static.stiffness
     stiffness[INTERFACE:, INTERFACE:] = basis.T @ (k.interior @ basis)
-    mass[:INTERFACE, :INTERFACE] = (
-        m.interface + constraint.T @ carried + m.coupling.T @ constraint
-    )
+    mass[:INTERFACE, :INTERFACE] = m.interface + constraint.T @ carried + m.coupling.T @ constraint
     mass[INTERFACE:, :INTERFACE] = basis.T @ carried
     mass[:INTERFACE, INTERFACE:] = mass[INTERFACE:, :INTERFACE].T
     mass[INTERFACE:, INTERFACE:] = basis.T @ (m.interior @ basis)
-    return ReducedModel(
-        0.5 * (stiffness + stiffness.T), 0.5 * (mass + mass.T), retained_modes
-    )
+    return ReducedModel(0.5 * (stiffness + stiffness.T), 0.5 * (mass + mass.T), retained_modes)

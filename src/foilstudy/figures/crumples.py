@@ -108,6 +108,4 @@ def typical_configuration(crumples: list[Crumple]) -> list[Crumple]:
     thickness = max(c.thickness_um for c in usable)
     overlengths = sorted({c.overlength_percent for c in usable if c.thickness_um == thickness})
     middle = overlengths[len(overlengths) // 2]
-    return [
-        c for c in usable if c.thickness_um == thickness and c.overlength_percent == middle
-    ]
+    return [c for c in usable if c.thickness_um == thickness and c.overlength_percent == middle]

@@ -37,9 +37,7 @@ def draw(cube, definition: str = "transfer"):
     magnitude = magnitude.where(cube["status"].isin(USABLE))
     directions = list(map(str, cube["direction"].values))
     thicknesses = cube["thickness"].to_numpy()
-    figure = new_figure(
-        min(PAGE_WIDTH, 2.2 * thicknesses.size + 2.2), 2.9 * len(directions) + 0.6
-    )
+    figure = new_figure(min(PAGE_WIDTH, 2.2 * thicknesses.size + 2.2), 2.9 * len(directions) + 0.6)
     axes = figure.subplots(
         len(directions), thicknesses.size, sharex=True, sharey=True, squeeze=False
     )
@@ -62,8 +60,13 @@ def draw(cube, definition: str = "transfer"):
         (ax.get_legend_handles_labels() for ax in axes.flat), key=lambda pair: len(pair[0])
     )
     if handles:
-        figure.legend(handles, labels, title="overlength", loc="outside lower center",
-                      ncols=min(8, len(labels)))
+        figure.legend(
+            handles,
+            labels,
+            title="overlength",
+            loc="outside lower center",
+            ncols=min(8, len(labels)),
+        )
     return figure
 
 
@@ -78,12 +81,27 @@ def _panel(ax, magnitude, static) -> None:
         if not len(curves):
             continue
         drawn = True
-        ax.fill_between(frequency, curves.min(axis=0), curves.max(axis=0), color=colour,
-                        alpha=BAND_ALPHA, lw=0)
-        ax.plot(frequency, np.median(curves, axis=0), color=colour, lw=1.4, ls=line_style(j),
-                label=overlength_label(overlengths[j]))
-        ax.plot(left * 1.17, static.isel(overlength=j), ">", color=colour, ms=5.5, mec="white",
-                mew=0.4, clip_on=False)
+        ax.fill_between(
+            frequency, curves.min(axis=0), curves.max(axis=0), color=colour, alpha=BAND_ALPHA, lw=0
+        )
+        ax.plot(
+            frequency,
+            np.median(curves, axis=0),
+            color=colour,
+            lw=1.4,
+            ls=line_style(j),
+            label=overlength_label(overlengths[j]),
+        )
+        ax.plot(
+            left * 1.17,
+            static.isel(overlength=j),
+            ">",
+            color=colour,
+            ms=5.5,
+            mec="white",
+            mew=0.4,
+            clip_on=False,
+        )
     if not drawn:
         message_panel(ax, "no usable realisation")
         return

@@ -65,8 +65,9 @@ def _bars(ax, parts, overlengths) -> None:
     base = np.zeros(overlengths.size)
     for name, (colour, hatch) in _PARTS.items():
         share = np.where(known, 100 * parts[name] / np.where(known, total, 1), 0)
-        ax.bar(x, share, 0.78, base, color=colour, hatch=hatch, edgecolor="white", lw=0.6,
-               label=name)
+        ax.bar(
+            x, share, 0.78, base, color=colour, hatch=hatch, edgecolor="white", lw=0.6, label=name
+        )
         base = base + share
     for i in x:
         text = _joules(total[i]) if known[i] else "none\nusable"
@@ -78,7 +79,7 @@ def _bars(ax, parts, overlengths) -> None:
 
 
 def _joules(energy: float) -> str:
-    for factor, unit in ((1, "J"), (1e3, "mJ"), (1e6, "µJ")):
-        if energy * factor >= 0.1:
-            break
+    factor, unit = next(
+        ((f, u) for f, u in ((1, "J"), (1e3, "mJ")) if energy * f >= 0.1), (1e6, "µJ")
+    )
     return f"{energy * factor:.2g} {unit}"

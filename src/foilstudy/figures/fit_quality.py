@@ -63,8 +63,12 @@ def _pair(column, data, law, thicknesses, overlengths) -> None:
     top.plot(limits, limits, color="0.3", lw=1)
     if np.isfinite(factor):
         top.fill_between(
-            limits, np.divide(limits, factor), np.multiply(limits, factor), color="0.5",
-            alpha=BAND_ALPHA, lw=0,
+            limits,
+            np.divide(limits, factor),
+            np.multiply(limits, factor),
+            color="0.5",
+            alpha=BAND_ALPHA,
+            lw=0,
         )
         bottom.axhspan(1 / factor, factor, color="0.5", alpha=BAND_ALPHA, lw=0)
     bottom.axhline(1, color="0.3", lw=1)

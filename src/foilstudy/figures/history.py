@@ -59,8 +59,14 @@ def draw(crumple_paths):
     axes[3].set_ylabel("relative residual")
     axes[3].set_xlabel("step")
     axes[0].text(
-        ramp_end, 1.02, "end of ramp ", transform=axes[0].get_xaxis_transform(), ha="center",
-        va="bottom", color="0.4", fontsize=9,
+        ramp_end,
+        1.02,
+        "end of ramp ",
+        transform=axes[0].get_xaxis_transform(),
+        ha="center",
+        va="bottom",
+        color="0.4",
+        fontsize=9,
     )
     figure.align_ylabels(axes)
     return figure

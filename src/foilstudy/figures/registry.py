@@ -196,11 +196,22 @@ def draw_figure(figure_id: str, cube_path, crumple_paths: Iterable, stem) -> tup
         return save(spec.draw(cube=cube, **inputs), stem)
 
 
-def draw_all(cube_path, crumple_paths: Iterable, out_dir) -> list[Path]:
-    """Draw and save every figure as ``<out_dir>/<id>.png`` and ``.svg``; return the paths."""
+def draw_figures(
+    figure_ids: Iterable[str], cube_path, crumple_paths: Iterable, out_dir
+) -> list[Path]:
+    """Draw and save figures as ``<out_dir>/<id>.png`` and ``.svg``; return the paths.
+
+    Parameters
+    ----------
+    figure_ids
+        Keys of `FIGURES`.
+    cube_path, crumple_paths
+        As for `draw_figure`.
+    out_dir : path of the folder
+    """
     crumple_paths = tuple(crumple_paths)
     return [
         path
-        for figure_id in FIGURES
+        for figure_id in figure_ids
         for path in draw_figure(figure_id, cube_path, crumple_paths, Path(out_dir) / figure_id)
     ]

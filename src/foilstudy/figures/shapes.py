@@ -63,7 +63,13 @@ def draw_grid(crumples, column_titles=None, row_titles=None, captions=None):
         ax.set_title(text, pad=4)
     for ax, text in zip(axes[:, 0], row_titles or []):
         ax.text(
-            -0.02, 0.5, text, transform=ax.transAxes, rotation=90, ha="right", va="center",
+            -0.02,
+            0.5,
+            text,
+            transform=ax.transAxes,
+            rotation=90,
+            ha="right",
+            va="center",
             fontsize=10.5,
         )
     if pictures:
@@ -96,7 +102,12 @@ def _panel(ax, crumple: Crumple | None, pictures, extent) -> None:
 def _colour_bar(figure, axes, scale: float) -> None:
     mappable = ScalarMappable(Normalize(-scale, scale), COLOUR_MAP)
     bar = figure.colorbar(
-        mappable, ax=axes, location="bottom", extend="both", aspect=45, pad=0.015,
+        mappable,
+        ax=axes,
+        location="bottom",
+        extend="both",
+        aspect=45,
+        pad=0.015,
         shrink=min(1.0, 4.5 / figure.get_figwidth()),
     )
     bar.set_label("radial displacement (mm), outwards positive")

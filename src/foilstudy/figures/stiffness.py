@@ -75,15 +75,38 @@ def draw(cube, direction: str):
 def _panel(ax, rows) -> None:
     x = rows["overlength_percent"].to_numpy()
     mean = rows["mean"].to_numpy()
-    ax.plot(x, rows["cylinder_bound"], color="0.6", lw=1.2, ls=(0, (1, 1)), marker="_", ms=7,
-            label="uncrumpled cylinder (bound)")
+    ax.plot(
+        x,
+        rows["cylinder_bound"],
+        color="0.6",
+        lw=1.2,
+        ls=(0, (1, 1)),
+        marker="_",
+        ms=7,
+        label="uncrumpled cylinder (bound)",
+    )
     ax.fill_between(x, rows["min"], rows["max"], color=_MINE, alpha=BAND_ALPHA, lw=0)
     ax.errorbar(
-        x, mean, yerr=[mean - rows["min"], rows["max"] - mean], fmt="o", color=_MINE, ms=5.5,
-        elinewidth=1, capsize=2, label="this study: mean, min to max",
+        x,
+        mean,
+        yerr=[mean - rows["min"], rows["max"] - mean],
+        fmt="o",
+        color=_MINE,
+        ms=5.5,
+        elinewidth=1,
+        capsize=2,
+        label="this study: mean, min to max",
     )
-    ax.plot(x, rows["refined_mean"], "s", mfc="white", mec=_REFINED, mew=1.4, ms=5.5,
-            label="same shapes, refined mesh")
+    ax.plot(
+        x,
+        rows["refined_mean"],
+        "s",
+        mfc="white",
+        mec=_REFINED,
+        mew=1.4,
+        ms=5.5,
+        label="same shapes, refined mesh",
+    )
 
 
 def _laws(ax, law, direction: str, overlength, thickness: float) -> None:

@@ -64,8 +64,11 @@ def draw(cube):
         _fit(ax, simulated_law(cube, direction), levels)
     axes[0].set_ylabel("thickness (µm)")
     bar = figure.colorbar(
-        ScalarMappable(norm, _COLOUR_MAP), ax=list(axes), label="mean stiffness (N/m)",
-        pad=0.02, aspect=28,
+        ScalarMappable(norm, _COLOUR_MAP),
+        ax=list(axes),
+        label="mean stiffness (N/m)",
+        pad=0.02,
+        aspect=28,
     )
     bar.outline.set_visible(False)
     decade_ticks(bar.ax.yaxis)
@@ -77,9 +80,7 @@ def _means(ax, overlengths, thicknesses, grid, levels, norm) -> None:
         x, y, stiffness = _interpolated(overlengths, thicknesses, grid)
         ax.contourf(x, y, stiffness, levels=levels, norm=norm, cmap=_COLOUR_MAP)
     x, y = np.meshgrid(overlengths, thicknesses)
-    ax.scatter(
-        x, y, c=grid, norm=norm, cmap=_COLOUR_MAP, s=42, edgecolor="white", lw=1, zorder=4
-    )
+    ax.scatter(x, y, c=grid, norm=norm, cmap=_COLOUR_MAP, s=42, edgecolor="white", lw=1, zorder=4)
     failed = ~np.isfinite(grid)
     ax.plot(x[failed], y[failed], "x", color="0.5", ms=8)
 
@@ -102,6 +103,7 @@ def _fit(ax, law, levels) -> None:
     y = np.geomspace(*ax.get_ylim(), 80)
     stiffness = law.stiffness(x[None, :], y[:, None])
     decades = LogLocator(subs=(1.0, 3.0)).tick_values(stiffness.min(), stiffness.max())
-    lines = ax.contour(x, y, stiffness, levels=decades, colors="0.15", linestyles="--",
-                       linewidths=1)
+    lines = ax.contour(
+        x, y, stiffness, levels=decades, colors="0.15", linestyles="--", linewidths=1
+    )
     ax.clabel(lines, fmt=short_number, fontsize=8.5, inline_spacing=3)

@@ -82,8 +82,10 @@ def thickness_label(thickness_um: float) -> str:
 
 def overlength_label(overlength_percent: float) -> str:
     """For example ``31 %``; one decimal below 10 %."""
-    return f"{overlength_percent:.0f} %" if overlength_percent >= 10 else (
-        f"{overlength_percent:.2g} %"
+    return (
+        f"{overlength_percent:.0f} %"
+        if overlength_percent >= 10
+        else (f"{overlength_percent:.2g} %")
     )
 
 
@@ -176,9 +178,7 @@ def label_ends(axes, x: float, labels, gap: float = 0.062, **text) -> None:
     )
     positions = spread([min(max(item[0], 0.0), 1.0) for item in items], gap)
     for position, (_, content, colour) in zip(positions, items):
-        axes.text(
-            x, position, content, color=colour, transform=axes.transAxes, va="center", **text
-        )
+        axes.text(x, position, content, color=colour, transform=axes.transAxes, va="center", **text)
 
 
 def spread(positions, gap: float) -> np.ndarray:

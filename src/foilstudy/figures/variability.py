@@ -61,8 +61,16 @@ def _panel(ax, rows, thicknesses) -> None:
         x = mine["overlength_percent"] + step * (i - (thicknesses.size - 1) / 2) * 2
         above = (mine["cv_high"] - mine["cv"]).clip(upper=10)
         ax.errorbar(
-            x, mine["cv"], yerr=[mine["cv"] - mine["cv_low"], above], fmt=marker(i), color=colour,
-            mec="white", mew=0.5, ms=6.5, elinewidth=0.9, alpha=0.95,
+            x,
+            mine["cv"],
+            yerr=[mine["cv"] - mine["cv_low"], above],
+            fmt=marker(i),
+            color=colour,
+            mec="white",
+            mew=0.5,
+            ms=6.5,
+            elinewidth=0.9,
+            alpha=0.95,
             label=thickness_label(thickness),
         )
 
@@ -77,5 +85,12 @@ def _regression(ax, fit, overlengths) -> None:
         ax.fill_between(x, low, high, color="0.5", alpha=BAND_ALPHA, lw=0, label="95 % band")
         half = 100 * (fit.high["overlength"] - fit.value["overlength"])
         text = f"slope {100 * fit.value['overlength']:+.3f} ± {half:.3f} per 100 % overlength"
-        ax.text(0.02, 0.98, text.replace("-", "−"), transform=ax.transAxes, va="top", color="0.2",
-                bbox={"facecolor": "white", "edgecolor": "none", "pad": 2, "alpha": 0.85})
+        ax.text(
+            0.02,
+            0.98,
+            text.replace("-", "−"),
+            transform=ax.transAxes,
+            va="top",
+            color="0.2",
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 2, "alpha": 0.85},
+        )

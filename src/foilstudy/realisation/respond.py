@@ -13,7 +13,6 @@ import numpy as np
 
 from foilstudy.config import ResponseTask
 from foilstudy.dynamics import (
-    DEFINITIONS,
     HintzHerting,
     Structure,
     dynamic_stiffness,
@@ -22,9 +21,9 @@ from foilstudy.dynamics import (
 from foilstudy.patch import Patch, refine
 from foilstudy.realisation.record import Quantity, read_record, write_record
 from foilstudy.realisation.scene import foil_of
+from foilstudy.sheet import Foil
 from foilstudy.shell.sheet_model import SheetModel
 from foilstudy.shell.tangent import mass_matrix, stiffness_matrix
-from foilstudy.sheet import Foil
 from foilstudy.stiffness import (
     InterfaceSystem,
     Rings,
@@ -73,7 +72,13 @@ def respond(task: ResponseTask, crumple_path: Path, path: Path) -> None:
             status, message = "failed", f"{type(error).__name__}: {error}"
     quantities["peak_memory"] = Quantity(_peak_memory_mb(), "MB", "peak memory of the job")
     write_record(path, quantities, {"status": status, "message": message})
-    print(f"{status}: {message}")
+    print(_summary(quantities) if "static_stiffness" in quantities else f"{status}: {message}")
+
+
+def _summary(quantities: dict[str, Quantity]) -> str:
+    axial, radial = quantities["static_stiffness"].values
+    seconds = sum(quantities[name].values for name in ("seconds_static", "seconds_dynamic"))
+    return f"axial {axial:.4g} N/m, radial {radial:.4g} N/m ({seconds:.1f} s)"
 
 
 def _measure(task: ResponseTask, values: dict, attributes: dict) -> dict[str, Quantity]:
@@ -170,9 +175,7 @@ def _static_quantities(static: StaticCondensation, levels: list) -> dict[str, Qu
     return quantities
 
 
-def _dynamic_quantities(
-    task: ResponseTask, structure: Structure
-) -> dict[str, Quantity]:
+def _dynamic_quantities(task: ResponseTask, structure: Structure) -> dict[str, Quantity]:
     options = task.dynamics
     model = HintzHerting(options.cutoff_hz).reduce(structure)
     grid = frequency_grid(options.shown_min_hz, options.shown_max_hz, options.frequencies)

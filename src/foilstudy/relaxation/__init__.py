@@ -1,4 +1,4 @@
-"""Dynamic relaxation of a sheet: explicit pseudo-time steps with scaled mass and viscous damping."""
+"""Dynamic relaxation of a sheet: explicit steps with scaled mass and viscous damping."""
 
 from foilstudy.relaxation.loop import (
     History,

@@ -155,9 +155,7 @@ def _motion_products(velocity, momentum, force, previous, free_start, free_stop)
     return work, norm
 
 
-def relax(
-    sheet: SheetModel, scheme: Scheme, ramp: Ramp, rule: StoppingRule
-) -> RelaxationResult:
+def relax(sheet: SheetModel, scheme: Scheme, ramp: Ramp, rule: StoppingRule) -> RelaxationResult:
     """Push the top ring of a sheet down and relax the sheet to equilibrium.
 
     Starts from the stress-free shape. Each increment of the ring's motion is spread over the

@@ -42,9 +42,7 @@ def stiffness_findings(summary: pd.DataFrame) -> list[str]:
         )
         bound = Spread.of(cells["mean"] / cells["cylinder_bound"])
         if bound:
-            text += (
-                f", {percent_range(bound.lowest, bound.highest)} of the uncrumpled cylinder's"
-            )
+            text += f", {percent_range(bound.lowest, bound.highest)} of the uncrumpled cylinder's"
         clauses = [clause for clause in (_beside_published(cells), _monotone(cells)) if clause]
         if clauses:
             text += f"; it {'; it '.join(clauses)}"
@@ -128,9 +126,7 @@ def variability_findings(variability: pd.DataFrame) -> list[str]:
         spread = Spread.of(cells["cv"])
         medians[direction] = spread.median
         fit = fit_variability(variability, direction)
-        slope, low, high = (
-            1000 * part["overlength"] for part in (fit.value, fit.low, fit.high)
-        )
+        slope, low, high = (1000 * part["overlength"] for part in (fit.value, fit.low, fit.high))
         text = (
             f"The {direction} coefficient of variation is "
             f"{percent_range(spread.lowest, spread.highest)}, median {percent(spread.median)}"

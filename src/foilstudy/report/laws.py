@@ -85,9 +85,7 @@ class Law:
         beta = self.beta.value if self.beta.known else 0.0
         gamma = self.gamma.value if self.gamma.known else 0.0
         return math.exp(
-            self.alpha.value
-            + beta * math.log(overlength_percent)
-            + gamma * math.log(thickness_um)
+            self.alpha.value + beta * math.log(overlength_percent) + gamma * math.log(thickness_um)
         )
 
 

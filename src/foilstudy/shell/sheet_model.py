@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from foilstudy.patch import Patch
-from foilstudy.shell import kernels
 from foilstudy.sheet import Material
+from foilstudy.shell import kernels
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,14 @@ class SheetModel:
         full integral (which locks), 0 leaves the in-plane checkerboard free.
     """
 
-    def __init__(self, patch, reference, material, thickness, stabilisation):
+    def __init__(
+        self,
+        patch: Patch,
+        reference: np.ndarray,
+        material: Material,
+        thickness: float,
+        stabilisation: float,
+    ):
         if reference.shape != patch.shape:
             raise ValueError(
                 f"control points have shape {reference.shape}, the patch needs {patch.shape}"

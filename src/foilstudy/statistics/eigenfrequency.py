@@ -22,9 +22,7 @@ def fit_eigenfrequency_law(data: Samples) -> LinearFit:
     LinearFit
         Its only regressor is called ``reference_height``.
     """
-    return fit_linear(
-        np.log(data.value), {"reference_height": np.log(data.reference_height_mm)}
-    )
+    return fit_linear(np.log(data.value), {"reference_height": np.log(data.reference_height_mm)})
 
 
 def eigenfrequency_table(cube):

@@ -129,8 +129,9 @@ class LinearFit:
         from scipy.stats import f
 
         observed = self.fitted + self.residuals
-        pure = sum(np.sum((observed[cluster == g] - observed[cluster == g].mean()) ** 2)
-                   for g in groups)
+        pure = sum(
+            np.sum((observed[cluster == g] - observed[cluster == g].mean()) ** 2) for g in groups
+        )
         lack = np.sum(self.residuals**2) - pure
         if pure <= 0:
             return np.nan
@@ -163,9 +164,10 @@ def fit_linear(response: np.ndarray, regressors: Mapping[str, np.ndarray]) -> Li
     names = tuple(name for name in regressors if name not in constant)
     nan = dict.fromkeys(("constant", *regressors), np.nan)
     if response.size <= len(names):
-        note = "no usable realisation" if response.size == 0 else (
-            f"{response.size} usable realisations are fewer than the {len(names) + 1} coefficients"
-        )
+        note = "no usable realisation"
+        if response.size:
+            needed = f"{len(names) + 1} coefficients"
+            note = f"{response.size} usable realisations are fewer than the {needed}"
         empty = np.full(response.size, np.nan)
         return LinearFit(nan, nan, nan, nan, np.nan, np.nan, response.size, empty, empty, note)
 

@@ -103,9 +103,7 @@ def fit_variability(table, direction: str) -> LinearFit:
         Its only regressor is called ``overlength``.
     """
     rows = table[(table["direction"] == direction) & table["cv"].notna()]
-    return fit_linear(
-        rows["cv"].to_numpy(), {"overlength": rows["overlength_percent"].to_numpy()}
-    )
+    return fit_linear(rows["cv"].to_numpy(), {"overlength": rows["overlength_percent"].to_numpy()})
 
 
 def variability_law_table(cube):
