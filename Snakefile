@@ -12,9 +12,6 @@ import os
 # cores nor change the order of their sums with the number of them.
 for variable in ("OMP", "MKL", "OPENBLAS", "NUMBA"):
     os.environ[f"{variable}_NUM_THREADS"] = "1"
-# MKL: the fastest code of this machine, and the same bits in every run on it. COMPATIBLE would
-# give the same bits on other machines too, but takes 2.5 times as long to factorise.
-os.environ.setdefault("MKL_CBWR", "AUTO")
 
 # A user's config replaces the default one; merged, the two would make a third that nobody wrote.
 if not workflow.configfiles:

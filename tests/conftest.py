@@ -9,6 +9,7 @@ import pytest
 
 from foilstudy.imperfection import imperfect_cylinder
 from foilstudy.patch import Patch, cylinder_control_points
+from foilstudy.realisation.crumple import RAMP_DAMPING, RELAXATION_DAMPING
 from foilstudy.relaxation import Ramp, RelaxationResult, Scheme, StoppingRule, relax
 from foilstudy.relaxation.damping import AdaptiveViscousDamping
 from foilstudy.relaxation.spectral_mass import SpectralMass
@@ -42,8 +43,11 @@ def imperfect_sheet(element_size, *, material=FEP, thickness=THICKNESS, seed=0, 
 
 def relaxed(sheet, shortening, *, ramp_steps, steps_max, tolerance=1e-8, safety=1.5):
     """Relaxation with the damping of a study."""
-    scheme = Scheme(SpectralMass(sheet, safety), AdaptiveViscousDamping(1.0),
-                    AdaptiveViscousDamping(0.25))  # fmt: skip
+    scheme = Scheme(
+        SpectralMass(sheet, safety),
+        AdaptiveViscousDamping(RAMP_DAMPING),
+        AdaptiveViscousDamping(RELAXATION_DAMPING),
+    )
     rule = StoppingRule(tolerance, tolerance, steps_max)
     return relax(sheet, scheme, Ramp(shortening, ramp_steps), rule)
 

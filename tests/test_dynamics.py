@@ -19,8 +19,8 @@ from foilstudy.linalg import factorise
 from foilstudy.stiffness import fixed_stiffness
 from foilstudy.stiffness.rings import interface_rigid_modes
 
-CUTOFF_HZ = 300.0
-BAND_HZ = 240.0
+CUTOFF_HZ = 1000.0
+BAND_HZ = 800.0
 """Shown band of a study: 0.8 of the cut-off."""
 DAMPING = 0.05
 SCALE = np.tile([1.0, 1.0, 1.0, 10.0, 10.0, 10.0], 2)

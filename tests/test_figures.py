@@ -144,9 +144,12 @@ def test_dynamic_stiffness_figure_takes_every_definition():
     cube = make_cube(thickness_um=(500.0,), reference_height_mm=(170.0,), seeds=2, cv=scatter)
     for definition in cube["definition"].values:
         figure = dynamic_stiffness.draw(cube, str(definition))
-        median = np.hypot(cube["dynamic_stiffness_re"], cube["dynamic_stiffness_im"]).sel(
-            definition=definition, direction="axial"
-        ).median("seed").squeeze()
+        median = (
+            np.hypot(cube["dynamic_stiffness_re"], cube["dynamic_stiffness_im"])
+            .sel(definition=definition, direction="axial")
+            .median("seed")
+            .squeeze()
+        )
         np.testing.assert_allclose(figure.axes[0].get_lines()[0].get_ydata(), median)
 
 

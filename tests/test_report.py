@@ -125,8 +125,11 @@ def write_crumple(path, thickness_um=500.0, height_mm=170.0, seed=0, status="con
     radius = 0.1 + 0.02 * np.sin(4 * angle + seed) * np.sin(np.pi * level)
     surface = np.stack([radius * np.cos(angle), radius * np.sin(angle), 0.13 * level + 0 * angle])
     reference = np.stack(
-        [0.1 * np.cos(angle) + 0 * level, 0.1 * np.sin(angle) + 0 * level,
-         1e-3 * height_mm * level + 0 * angle]
+        [
+            0.1 * np.cos(angle) + 0 * level,
+            0.1 * np.sin(angle) + 0 * level,
+            1e-3 * height_mm * level + 0 * angle,
+        ]
     )
     path.parent.mkdir(parents=True, exist_ok=True)
     with netCDF4.Dataset(path, "w") as data:
@@ -475,8 +478,15 @@ def test_verbs_follow_the_interval():
 
 @pytest.mark.parametrize(
     "value, text",
-    [(0, "0"), (13349.2, "13\u202f300"), (-0.8512, "−0.851"), (1.3e-7, "1.30e−7"),
-     (999.6, "1\u202f000"), (math.nan, "–"), (42, "42.0")],
+    [
+        (0, "0"),
+        (13349.2, "13\u202f300"),
+        (-0.8512, "−0.851"),
+        (1.3e-7, "1.30e−7"),
+        (999.6, "1\u202f000"),
+        (math.nan, "–"),
+        (42, "42.0"),
+    ],
 )
 def test_number(value, text):
     assert number(value) == text

@@ -314,6 +314,18 @@ def test_a_rotation_by_columns_changes_nothing():
     np.testing.assert_allclose(shifted, force, rtol=0, atol=1e-13 * np.abs(force).max())
 
 
+def test_the_same_bits_wherever_the_memory_lies():
+    sheet = wild_sheet(42, along=10)
+    points = wild_shape(sheet)
+    rng = np.random.default_rng(0)
+    force, energies, scatter = np.empty_like(points), set(), []
+    for _ in range(1000):
+        # rebound only once the new blocks are there, so that the heap looks different every time
+        scatter = [np.empty(n, np.uint8) for n in rng.integers(1, 20_000, rng.integers(1, 30))]
+        energies.add(sheet.force(points, force).tobytes() + force.tobytes())
+    assert scatter and len(energies) == 1
+
+
 # --- closed forms --------------------------------------------------------------------------------
 
 

@@ -68,8 +68,9 @@ class Patch:
 def cylinder_control_points(patch: Patch, diameter: float) -> np.ndarray:
     """Control points of a straight cylinder standing on z = 0, shape (3, rows, columns), m.
 
-    The control radius is chosen such that the mean radius of the spline surface, over an element,
-    is half the diameter (the spline deviates from the circle by its fourth order).
+    The control radius is chosen such that an element has the arc length of the circle at its
+    middle, to fourth order; area and mass are then right, the radius is 1e-4 too large at 126
+    elements around.
     """
     step = 2 * np.pi / patch.columns
     mean_of_basis = np.array([1 / 6, 2 / 3, 1 / 6])

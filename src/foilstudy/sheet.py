@@ -52,7 +52,8 @@ class Imperfection:
         ``gaussian`` (independent at every control point), ``smoothed`` (Gaussian correlation) or
         ``buckling_modes`` (random superposition of classical axial buckling modes).
     amplitude : float
-        Standard deviation of each coordinate of the surface (radial only for buckling modes), m.
+        Standard deviation of each coordinate of a control point (of the radial one for buckling
+        modes), m. The surface averages over neighbours: half of it for ``gaussian``.
     correlation_length : float
         Standard deviation of the smoothing kernel of ``smoothed``, m.
     stream : tuple of int

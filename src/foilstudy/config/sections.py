@@ -171,7 +171,12 @@ class Imperfection(Section):
         "gaussian",
     )
     amplitude_um: float = unit_field(
-        "um", "Standard deviation of the radial offset.", 10.0, gt=0, le=1e6
+        "um",
+        "Standard deviation of each coordinate of a control point; of the radial one for "
+        "`buckling_modes`.",
+        10.0,
+        gt=0,
+        le=1e6,
     )
     correlation_length_mm: float | None = unit_field(
         "mm",

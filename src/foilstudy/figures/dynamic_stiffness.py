@@ -21,7 +21,7 @@ from foilstudy.statistics.cells import USABLE, good
 
 
 @styled
-def draw(cube, definition: str = "transfer"):
+def draw(cube, definition: str):
     """Draw one panel per direction (row) and thickness (column), one curve per overlength.
 
     Parameters

@@ -93,11 +93,12 @@ FIGURES: dict[str, FigureSpec] = {
     ),
     "dynamic_stiffness": FigureSpec(
         "Dynamic stiffness",
-        "Magnitude of the transfer stiffness (force on the held ring per motion of the other) "
-        "against frequency. Line and band: median, smallest and largest of the realisations. "
-        "Triangles at the left: mean static stiffness.",
+        "Magnitude of the relative stiffness (a pair of opposite forces on the two rings per "
+        "relative motion, the published definition) against frequency. Line and band: median, "
+        "smallest and largest of the realisations. Triangles at the left: mean static stiffness.",
         "dynamic_stiffness",
         ("cube",),
+        {"definition": "relative"},
     ),
     "eigenfrequency_law": FigureSpec(
         "First eigenfrequency against reference height",

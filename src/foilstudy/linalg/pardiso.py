@@ -17,7 +17,9 @@ from foilstudy.linalg.errors import SolveError
 
 _SYMMETRIC_INDEFINITE = -2
 _ANALYSE_AND_FACTOR, _SOLVE, _RELEASE = 12, 33, -1
-_CBWR_AVX2_STRICT = 10 | 0x10000
+_CBWR_AUTO = 2
+"""Conditional numerical reproducibility: the fastest code of this machine, the same in every run.
+Named instruction sets are refused on other processors than Intel's."""
 
 
 @lru_cache(maxsize=1)
@@ -33,7 +35,7 @@ def _library():
                 library = ctypes.CDLL(str(file.locate()))
             except OSError:
                 return None
-            library.MKL_CBWR_Set(ctypes.c_int(_CBWR_AVX2_STRICT))
+            library.MKL_CBWR_Set(ctypes.c_int(_CBWR_AUTO))
             library.MKL_Set_Num_Threads(ctypes.c_int(1))
             library.pardiso.restype = None
             return library
@@ -95,6 +97,8 @@ class PardisoFactorisation:
         self._job = _Job(upper)
         weakref.finalize(self, _release, self._job)
         self._run(_ANALYSE_AND_FACTOR, np.zeros(self._job.size))
+        if self._job.settings[13] > 0:
+            raise SolveError("the matrix is singular: Pardiso had to perturb a pivot")
         self.negative_eigenvalues = int(self._job.settings[22])
 
     def solve(self, rhs: np.ndarray) -> np.ndarray:

@@ -20,10 +20,9 @@ from foilstudy.shell.intersection import self_crossing_share
 from foilstudy.shell.sheet_model import SheetModel
 from foilstudy.shell.yielding import beyond_yield_share
 
-RAMP_DAMPING, RELAXATION_DAMPING = 1.0, 0.25
-"""Share of the critical damping of the current motion. Critical while the ring moves keeps the
-process quasi-static; afterwards the Rayleigh quotient overestimates the slowest mode, and a
-quarter of it halved the steps to equilibrium (docs/method.md)."""
+RAMP_DAMPING, RELAXATION_DAMPING = 0.5, 0.25
+"""Share of the critical damping of the current motion, while the ring moves and after. The Rayleigh
+quotient overestimates the slowest mode, so that less damping settles sooner (docs/method.md)."""
 
 
 def crumple(task: CrumpleTask, path: Path) -> None:

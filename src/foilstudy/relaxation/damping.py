@@ -24,15 +24,30 @@ class Damping(Protocol):
 
 
 class AdaptiveViscousDamping:
-    """Critical damping of the mode in which the sheet currently moves (Underwood 1983).
+    """Damping in proportion to the frequency of the sheet's current motion (after Underwood 1983).
 
-    c = 2 omega_0 with the Rayleigh quotient omega_0^2 = |v . (f - f_old)| / (v . M v).
+    c = 2 scale omega_0 with the Rayleigh quotient omega_0^2 = |v . (f - f_old)| / (v . M v), its
+    numerator and denominator averaged over the last steps. Without the average the coefficient
+    jumps from step to step and amplifies rounding errors: a relative perturbation of 1e-15 grew to
+    millimetres along a ramp, with it to 1e-9 mm.
+
+    Parameters
+    ----------
+    scale : float
+        1 damps a single mode critically.
+    memory : float
+        Steps over which the average decays to 1/e.
     """
 
-    def __init__(self, scale: float = 1.0):
+    def __init__(self, scale: float = 1.0, memory: float = 50.0):
         self.scale = scale
+        self._weight = 1.0 / memory
+        self._work_rate = 0.0
+        self._momentum_norm = 0.0
 
     def coefficient(self, work_rate: float, momentum_norm: float) -> float:
-        if momentum_norm <= 0.0:
+        self._work_rate += self._weight * (abs(work_rate) - self._work_rate)
+        self._momentum_norm += self._weight * (momentum_norm - self._momentum_norm)
+        if self._momentum_norm <= 0.0:
             return 0.0
-        return min(2.0 * self.scale * np.sqrt(abs(work_rate) / momentum_norm), 1.9)
+        return min(2.0 * self.scale * np.sqrt(self._work_rate / self._momentum_norm), 1.9)

@@ -103,7 +103,7 @@ class RelaxationResult:
     history: History
 
 
-_UNSTABLE = 0.1
+_UNSTABLE = 0.5
 """Kinetic over strain energy at the step limit above which the motion feeds itself."""
 
 

@@ -154,25 +154,26 @@ def dynamic_findings(cube: xr.Dataset) -> list[str]:
     Parameters
     ----------
     cube
-        The study's result cube; its ``transfer`` dynamic stiffness is used.
+        The study's result cube; its ``relative`` dynamic stiffness is used, the published
+        definition.
     """
     if "dynamic_stiffness_re" not in cube:
         return []
-    transfer = np.hypot(
-        cube["dynamic_stiffness_re"].sel(definition="transfer"),
-        cube["dynamic_stiffness_im"].sel(definition="transfer"),
+    relative = np.hypot(
+        cube["dynamic_stiffness_re"].sel(definition="relative"),
+        cube["dynamic_stiffness_im"].sel(definition="relative"),
     )
     frequency = cube["frequency"].values
     sentences = []
-    start = Spread.of(np.abs(transfer.isel(frequency=0) / cube["static_stiffness"] - 1))
+    start = Spread.of(np.abs(relative.isel(frequency=0) / cube["static_stiffness"] - 1))
     if start:
         sentences.append(
-            f"At {nominal(frequency[0])} Hz the magnitude of the transfer stiffness differs from "
+            f"At {nominal(frequency[0])} Hz the magnitude of the relative stiffness differs from "
             f"the static stiffness by {percent(start.highest)} at most "
             f"(median {percent(start.median)})."
         )
     top = frequency >= frequency[-1] / 2
-    thickest = transfer.isel(thickness=-1)
+    thickest = relative.isel(thickness=-1)
     for direction in map(str, cube["direction"].values):
         curves = thickest.sel(direction=direction)
         before = _ratio_of_extremes(curves.isel(frequency=0))

@@ -26,12 +26,13 @@ def self_crossing_share(surface: np.ndarray) -> float:
     right = np.roll(corner, -1, axis=1)
     a, b, c, d = (k.ravel() for k in (corner[:-1], right[:-1], right[1:], corner[1:]))
     triangles = np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+    quad_corners = np.tile(np.stack([a, b, c, d], 1), (2, 1))
     vertices = points[triangles]
     centres = vertices.mean(axis=1)
     reach = 2 * np.linalg.norm(vertices - centres[:, None], axis=2).max()
     pairs = cKDTree(centres).query_pairs(reach, output_type="ndarray")
     crossed = np.zeros(len(triangles), dtype=np.bool_)
-    _mark_crossings(vertices, triangles, pairs, crossed)
+    _mark_crossings(vertices, quad_corners, pairs, crossed)
     quads = crossed[: len(a)] | crossed[len(a) :]
     areas = 0.5 * np.linalg.norm(
         np.cross(vertices[:, 1] - vertices[:, 0], vertices[:, 2] - vertices[:, 0]), axis=1
@@ -41,15 +42,15 @@ def self_crossing_share(surface: np.ndarray) -> float:
 
 
 @njit(cache=True)
-def _mark_crossings(vertices, triangles, pairs, crossed):
+def _mark_crossings(vertices, quad_corners, pairs, crossed):
     for k in range(pairs.shape[0]):
         p, q = pairs[k, 0], pairs[k, 1]
         if crossed[p] and crossed[q]:
             continue
         shared = False
-        for i in range(3):
-            for j in range(3):
-                shared = shared or triangles[p, i] == triangles[q, j]
+        for i in range(4):
+            for j in range(4):
+                shared = shared or quad_corners[p, i] == quad_corners[q, j]
         if shared or not _boxes_overlap(vertices[p], vertices[q]):
             continue
         for i in range(3):

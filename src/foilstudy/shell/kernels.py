@@ -100,20 +100,17 @@ def scales(patch, thickness: float, stabilisation: float) -> tuple[tuple, tuple]
 
 @njit(cache=True, fastmath=True, error_model="numpy")
 def _element_chunk(buf, elements, at, n, scales, g):
-    """Energies and the five work-conjugate vectors of n neighbouring elements of one row."""
-    em = 0.0
-    eb = 0.0
-    es = 0.0
+    """Work-conjugate vectors (rows 0 to 14 of g) and energies (15 to 17) of n elements of a row."""
     d1, dd1, bend, grad1, grad2 = scales
     for i in range(n):
         # base vectors and second derivatives at the element middle
-        x1 = (buf[0 * _WIDE + i + 2] - buf[0 * _WIDE + i]) * d1
+        x1 = (buf[i + 2] - buf[i]) * d1
         y1 = (buf[1 * _WIDE + i + 2] - buf[1 * _WIDE + i]) * d1
         z1 = (buf[2 * _WIDE + i + 2] - buf[2 * _WIDE + i]) * d1
         x2 = 0.125 * (buf[3 * _WIDE + i] + buf[3 * _WIDE + i + 2]) + 0.75 * buf[3 * _WIDE + i + 1]
         y2 = 0.125 * (buf[4 * _WIDE + i] + buf[4 * _WIDE + i + 2]) + 0.75 * buf[4 * _WIDE + i + 1]
         z2 = 0.125 * (buf[5 * _WIDE + i] + buf[5 * _WIDE + i + 2]) + 0.75 * buf[5 * _WIDE + i + 1]
-        x11 = (buf[0 * _WIDE + i] - 2.0 * buf[0 * _WIDE + i + 1] + buf[0 * _WIDE + i + 2]) * dd1
+        x11 = (buf[i] - 2.0 * buf[i + 1] + buf[i + 2]) * dd1
         y11 = (buf[1 * _WIDE + i] - 2.0 * buf[1 * _WIDE + i + 1] + buf[1 * _WIDE + i + 2]) * dd1
         z11 = (buf[2 * _WIDE + i] - 2.0 * buf[2 * _WIDE + i + 1] + buf[2 * _WIDE + i + 2]) * dd1
         x22 = 0.125 * (buf[6 * _WIDE + i] + buf[6 * _WIDE + i + 2]) + 0.75 * buf[6 * _WIDE + i + 1]
@@ -148,7 +145,7 @@ def _element_chunk(buf, elements, at, n, scales, g):
         n1 = c11 * e1 + c12 * e2 + c16 * e6
         n2 = c12 * e1 + c22 * e2 + c26 * e6
         n6 = c16 * e1 + c26 * e2 + c66 * e6
-        em += n1 * e1 + n2 * e2 + n6 * e6
+        g[15 * _WIDE + i] = 0.5 * (n1 * e1 + n2 * e2 + n6 * e6)
 
         k1 = elements[at + 3 * CHUNK + i] - (x11 * nx + y11 * ny + z11 * nz)
         k2 = elements[at + 4 * CHUNK + i] - (x22 * nx + y22 * ny + z22 * nz)
@@ -156,7 +153,7 @@ def _element_chunk(buf, elements, at, n, scales, g):
         m1 = bend * (c11 * k1 + c12 * k2 + c16 * k6)
         m2 = bend * (c12 * k1 + c22 * k2 + c26 * k6)
         m6 = 2.0 * bend * (c16 * k1 + c26 * k2 + c66 * k6)
-        eb += m1 * k1 + m2 * k2 + 0.5 * m6 * k6
+        g[16 * _WIDE + i] = 0.5 * (m1 * k1 + m2 * k2 + 0.5 * m6 * k6)
 
         # first-order variation of the membrane strain, direction 1 then 2
         f1 = x11 * x1 + y11 * y1 + z11 * z1 - elements[at + 6 * CHUNK + i]
@@ -173,7 +170,9 @@ def _element_chunk(buf, elements, at, n, scales, g):
         r1 = grad2 * (c11 * h1 + c12 * h2 + c16 * h6)
         r2 = grad2 * (c12 * h1 + c22 * h2 + c26 * h6)
         r6 = grad2 * (c16 * h1 + c26 * h2 + c66 * h6)
-        es += s1 * f1 + s2 * f2 + s6 * f6 + r1 * h1 + r2 * h2 + r6 * h6
+        g[17 * _WIDE + i] = 0.5 * (
+            s1 * f1 + s2 * f2 + s6 * f6 + r1 * h1 + r2 * h2 + r6 * h6
+        )
 
         # b_ab varies with the base vectors through the normal: d(b_ab) = (N_,ab - G^c_ab N_,c).a_3,
         # G^c_ab = a_ab . a^c; q_c = sum over ab of m^ab G^c_ab
@@ -214,7 +213,19 @@ def _element_chunk(buf, elements, at, n, scales, g):
         g[12 * _WIDE + i + 2] = (s2 + r6) * x2 + (s6 + r1) * x1 - m6 * nx
         g[13 * _WIDE + i + 2] = (s2 + r6) * y2 + (s6 + r1) * y1 - m6 * ny
         g[14 * _WIDE + i + 2] = (s2 + r6) * z2 + (s6 + r1) * z1 - m6 * nz
-    return 0.5 * em, 0.5 * eb, 0.5 * es
+
+
+@njit(cache=True, fastmath=True)
+def _add_energies(g, count, energy):
+    """Sum apart from the element loop, in which its order depended on where the arrays lay."""
+    membrane, bending, stabilisation = 0.0, 0.0, 0.0
+    for i in range(count):
+        membrane += g[15 * _WIDE + i]
+        bending += g[16 * _WIDE + i]
+        stabilisation += g[17 * _WIDE + i]
+    energy[0] += membrane
+    energy[1] += bending
+    energy[2] += stabilisation
 
 
 @njit(cache=True, fastmath=True, error_model="numpy")
@@ -244,7 +255,7 @@ def internal_force(x, elements, scales_around, scales_along, force):
     d1, dd1, bend, grad1, grad2 = scales_around
     d2, dd2 = scales_along
     buf = np.zeros(9 * _WIDE)
-    g = np.zeros(15 * _WIDE)
+    g = np.zeros(18 * _WIDE)
     energy = np.zeros(3)
     force[:] = 0.0
     n_chunks = (n_around + CHUNK - 1) // CHUNK
@@ -273,10 +284,8 @@ def internal_force(x, elements, scales_around, scales_along, force):
                 g[k * _WIDE + n + 2] = 0.0
                 g[k * _WIDE + n + 3] = 0.0
             at = (j * n_chunks + chunk) * VALUES * CHUNK
-            em, eb, es = _element_chunk(buf, elements, at, n, scales_around, g)
-            energy[0] += em
-            energy[1] += eb
-            energy[2] += es
+            _element_chunk(buf, elements, at, n, scales_around, g)
+            _add_energies(g, n, energy)
             for c in range(3):
                 g1 = c * _WIDE
                 g2 = g1 + 3 * _WIDE
