@@ -28,8 +28,9 @@ import numpy as np  # noqa: E402
 from foilstudy.config import load_config  # noqa: E402
 from foilstudy.patch import cylinder_control_points  # noqa: E402
 from foilstudy.provenance import machine  # noqa: E402
-from foilstudy.realisation import crumple, respond  # noqa: E402
+from foilstudy.realisation.crumple import crumple  # noqa: E402
 from foilstudy.realisation.record import read_record  # noqa: E402
+from foilstudy.realisation.respond import respond  # noqa: E402
 from foilstudy.realisation.scene import foil_of, patch_of  # noqa: E402
 from foilstudy.relaxation.spectral_mass import SpectralMass  # noqa: E402
 from foilstudy.shell.sheet_model import SheetModel  # noqa: E402

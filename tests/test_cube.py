@@ -10,8 +10,10 @@ import yaml
 
 from foilstudy import load_config, open_cube
 from foilstudy.cube import gather
-from foilstudy.realisation import crumple, cylinder_bounds, respond
+from foilstudy.realisation.crumple import crumple
+from foilstudy.realisation.cylinder import cylinder_bounds
 from foilstudy.realisation.record import read_record, write_record
+from foilstudy.realisation.respond import respond
 
 CONFIG = load_config(
     {

@@ -9,8 +9,10 @@ import pytest
 
 from foilstudy.config import load_config
 from foilstudy.patch import knot_points
-from foilstudy.realisation import crumple, cylinder_bounds, respond
+from foilstudy.realisation.crumple import crumple
+from foilstudy.realisation.cylinder import cylinder_bounds
 from foilstudy.realisation.record import Quantity, read_record, write_record
+from foilstudy.realisation.respond import respond
 from foilstudy.stiffness import fixed_stiffness
 
 

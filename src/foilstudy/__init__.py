@@ -4,24 +4,23 @@ Heavy modules load on first use, so that ``import foilstudy`` stays cheap.
 """
 
 from importlib import import_module
-from importlib.metadata import version
-
-__version__ = version("foilstudy")
 
 _LAZY = {
     "ConfigError": "foilstudy.config",
     "StudyConfig": "foilstudy.config",
     "load_config": "foilstudy.config",
-    "crumple": "foilstudy.realisation",
+    "crumple": "foilstudy.realisation.crumple",
     "gather": "foilstudy.cube",
     "open_cube": "foilstudy.cube",
-    "respond": "foilstudy.realisation",
+    "respond": "foilstudy.realisation.respond",
 }
 
-__all__ = ["__version__", *sorted(_LAZY)]
+__all__ = sorted(_LAZY)
 
 
 def __getattr__(name: str):
+    if name == "__version__":
+        return import_module("importlib.metadata").version("foilstudy")
     if name in _LAZY:
         return getattr(import_module(_LAZY[name]), name)
     raise AttributeError(f"module 'foilstudy' has no attribute {name!r}")

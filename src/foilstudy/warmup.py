@@ -10,7 +10,8 @@ from foilstudy.config import load_config
 
 def compile_kernels() -> None:
     """Run one very small realisation from end to end."""
-    from foilstudy.realisation import crumple, respond
+    from foilstudy.realisation.crumple import crumple
+    from foilstudy.realisation.respond import respond
 
     study = load_config(
         {

@@ -170,9 +170,7 @@ def _element_chunk(buf, elements, at, n, scales, g):
         r1 = grad2 * (c11 * h1 + c12 * h2 + c16 * h6)
         r2 = grad2 * (c12 * h1 + c22 * h2 + c26 * h6)
         r6 = grad2 * (c16 * h1 + c26 * h2 + c66 * h6)
-        g[17 * _WIDE + i] = 0.5 * (
-            s1 * f1 + s2 * f2 + s6 * f6 + r1 * h1 + r2 * h2 + r6 * h6
-        )
+        g[17 * _WIDE + i] = 0.5 * (s1 * f1 + s2 * f2 + s6 * f6 + r1 * h1 + r2 * h2 + r6 * h6)
 
         # b_ab varies with the base vectors through the normal: d(b_ab) = (N_,ab - G^c_ab N_,c).a_3,
         # G^c_ab = a_ab . a^c; q_c = sum over ab of m^ab G^c_ab
