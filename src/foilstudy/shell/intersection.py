@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numba import njit
-from scipy.spatial import cKDTree
 
 
 def self_crossing_share(surface: np.ndarray) -> float:
@@ -30,9 +29,10 @@ def self_crossing_share(surface: np.ndarray) -> float:
     vertices = points[triangles]
     centres = vertices.mean(axis=1)
     reach = 2 * np.linalg.norm(vertices - centres[:, None], axis=2).max()
-    pairs = cKDTree(centres).query_pairs(reach, output_type="ndarray")
+    # triangles that meet lie in the same or in neighbouring cubes of this size
+    cells = ((centres - centres.min(axis=0)) / reach).astype(np.int64)
     crossed = np.zeros(len(triangles), dtype=np.bool_)
-    _mark_crossings(vertices, quad_corners, pairs, crossed)
+    _mark_crossings(vertices, quad_corners, cells, crossed)
     quads = crossed[: len(a)] | crossed[len(a) :]
     areas = 0.5 * np.linalg.norm(
         np.cross(vertices[:, 1] - vertices[:, 0], vertices[:, 2] - vertices[:, 0]), axis=1
@@ -42,25 +42,41 @@ def self_crossing_share(surface: np.ndarray) -> float:
 
 
 @njit(cache=True)
-def _mark_crossings(vertices, quad_corners, pairs, crossed):
-    for k in range(pairs.shape[0]):
-        p, q = pairs[k, 0], pairs[k, 1]
-        if crossed[p] and crossed[q]:
-            continue
-        shared = False
-        for i in range(4):
-            for j in range(4):
-                shared = shared or quad_corners[p, i] == quad_corners[q, j]
-        if shared or not _boxes_overlap(vertices[p], vertices[q]):
-            continue
-        for i in range(3):
-            j = (i + 1) % 3
-            if _segment_hits(vertices[p, i], vertices[p, j], vertices[q]) or _segment_hits(
-                vertices[q, i], vertices[q, j], vertices[p]
-            ):
-                crossed[p] = True
-                crossed[q] = True
-                break
+def _mark_crossings(vertices, quad_corners, cells, crossed):
+    """Test every triangle against the later ones in its own and in the neighbouring cells."""
+    nx, ny, nz = cells[:, 0].max() + 3, cells[:, 1].max() + 3, cells[:, 2].max() + 3
+    first = np.full((nx, ny, nz), -1)  # a margin of one empty cell all round
+    following = np.full(len(cells), -1)
+    for p in range(len(cells)):
+        x, y, z = cells[p, 0] + 1, cells[p, 1] + 1, cells[p, 2] + 1
+        for i in range(x - 1, x + 2):
+            for j in range(y - 1, y + 2):
+                for k in range(z - 1, z + 2):
+                    q = first[i, j, k]
+                    while q >= 0:
+                        if not (crossed[p] and crossed[q]) and _cross(
+                            vertices[p], vertices[q], quad_corners[p], quad_corners[q]
+                        ):
+                            crossed[p] = True
+                            crossed[q] = True
+                        q = following[q]
+        following[p] = first[x, y, z]
+        first[x, y, z] = p
+
+
+@njit(cache=True)
+def _cross(first, second, first_corners, second_corners):
+    for corner in first_corners:
+        for other in second_corners:
+            if corner == other:
+                return False
+    if not _boxes_overlap(first, second):
+        return False
+    for i in range(3):
+        j = (i + 1) % 3
+        if _segment_hits(first[i], first[j], second) or _segment_hits(second[i], second[j], first):
+            return True
+    return False
 
 
 @njit(cache=True)
