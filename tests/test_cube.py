@@ -27,7 +27,7 @@ CONFIG = load_config(
         "relaxation": {"ramp_steps": 100, "relaxation_steps_max": 4000},
         "stiffness": {"refinements": 0},
         "dynamics": {
-            "cutoff_hz": 150,
+            "cutoff_hz": 400,
             "shown_max_hz": 100,
             "frequencies": 5,
             "eigenfrequencies": 3,
@@ -116,8 +116,8 @@ def test_spoilt_cells_are_flagged_and_empty(cube):
     assert whole.status.item() == "converged"
     for name, variable in whole.data_vars.items():
         if variable.dtype.kind == "f" and "seed" in cube[name].dims:
-            # without a refinement there is no mesh error
-            if name != "static_stiffness_mesh_error":
+            # without a refinement there is no refined value
+            if name not in ("static_stiffness_converged", "static_stiffness_mesh_error"):
                 assert np.isfinite(variable).any(), name
 
 

@@ -50,6 +50,13 @@ def scaled(matrix):
     return matrix * np.outer(SCALE, SCALE)
 
 
+def test_low_frequencies_lose_no_accuracy_to_the_rigid_modes(structure, model):
+    """At the lowest frequency that a study accepts."""
+    static = fixed_stiffness(structure.static.stiffness)
+    for definition in dynamic_stiffness(model, np.array([0.01]), DAMPING):
+        np.testing.assert_allclose(np.abs(definition[:, 0]), static, rtol=1e-5)
+
+
 # --- reduction -----------------------------------------------------------------------------------
 
 

@@ -174,6 +174,15 @@ def test_modes_of_a_clamped_cylinder(solver, limit_hz):
     assert_are_all_modes(modes, stiffness, mass, limit)
 
 
+def test_most_modes_of_a_small_system(solver):
+    """More modes than a Krylov space could hold apart."""
+    stiffness, mass = clamped_cylinder(25e-3)
+    values = scipy.linalg.eigh(stiffness.toarray(), mass.toarray(), eigvals_only=True)
+    limit = 0.5 * (values[len(values) // 2] + values[len(values) // 2 + 1])
+    modes = modes_below(stiffness, mass, limit)
+    assert_are_all_modes(modes, stiffness, mass, limit)
+
+
 def test_modes_of_a_free_cylinder(solver):
     """Six rigid modes at zero, then pairs."""
     sheet = cylinder(20e-3)

@@ -28,7 +28,7 @@ def study(**sections):
             "mesh": {"element_size_mm": 15},
             "relaxation": {"ramp_steps": 100, "relaxation_steps_max": 4000},
             "dynamics": {
-                "cutoff_hz": 150,
+                "cutoff_hz": 400,
                 "shown_max_hz": 100,
                 "frequencies": 5,
                 "eigenfrequencies": 3,
@@ -134,16 +134,26 @@ def test_an_absurd_imperfection_becomes_a_flagged_record(tmp_path):
     assert_documented(tmp_path / "crumple.nc")
 
 
-def test_a_crash_while_crumpling_becomes_a_flagged_record(tmp_path, monkeypatch):
+def test_a_fault_of_the_machine_is_no_record(tmp_path, monkeypatch):
     def explode(*_):
         raise MemoryError("no room for the history")
 
     monkeypatch.setattr(sys.modules["foilstudy.realisation.crumple"], "relax", explode)
+    with pytest.raises(MemoryError):
+        run(study(), tmp_path)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_crash_while_crumpling_becomes_a_flagged_record(tmp_path, monkeypatch):
+    def explode(*_):
+        raise ArithmeticError("no root")
+
+    monkeypatch.setattr(sys.modules["foilstudy.realisation.crumple"], "relax", explode)
     records = run(study(), tmp_path)
     assert records.crumple_attributes["status"] == "failed"
-    assert records.crumple_attributes["message"] == "MemoryError: no room for the history"
+    assert records.crumple_attributes["message"] == "ArithmeticError: no root"
     assert records.response_attributes["status"] == "failed"
-    assert records.response_attributes["message"] == "MemoryError: no room for the history"
+    assert records.response_attributes["message"] == "ArithmeticError: no root"
 
 
 def test_a_crash_while_measuring_becomes_a_flagged_record(tmp_path, monkeypatch):
@@ -170,7 +180,8 @@ def test_a_record_appears_whole_or_not_at_all(tmp_path):
         write_record(path, {"good": good, "bad": bad}, {})
     values, attributes = read_record(path)  # the earlier one is untouched
     np.testing.assert_array_equal(values["good"], good.values)
-    assert attributes == {"status": "converged"}
+    assert attributes["status"] == "converged"
+    assert attributes["git_commit"]
     assert [p.name for p in tmp_path.iterdir()] == ["record.nc"]
 
 

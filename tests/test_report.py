@@ -270,7 +270,7 @@ def test_policy_admits_the_one_script(study):
 def test_images_decode_and_vector_drawings_win(study):
     _, page = study
     sources = dict(re.findall(r'<figure id="figure-(\w+)".*?<img src="([^"]+)"', page, flags=re.S))
-    assert set(sources) == {"stiffness_axial", "morphology", "not_in_the_registry"}
+    assert set(sources) == {"stiffness_axial", "morphology"}  # and no stray picture
     for source in sources.values():
         assert base64.b64decode(source.split(",")[1], validate=True)
     assert sources["stiffness_axial"].startswith("data:image/svg+xml")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import os
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +10,8 @@ import xarray as xr
 
 from foilstudy.config import Cell, StudyConfig
 from foilstudy.dynamics import DEFINITIONS, frequency_grid
+from foilstudy.files import written_whole
+from foilstudy.outcome import USABLE
 from foilstudy.provenance import provenance
 from foilstudy.realisation.record import read_record
 from foilstudy.stiffness import DOF_NAMES
@@ -36,7 +38,7 @@ def _variables(study: StudyConfig) -> dict[str, tuple[tuple[str, ...], str, str]
         "static_stiffness_mesh_error": (
             directional,
             "N/m",
-            "estimated mesh error of static_stiffness_converged: step from the next coarser mesh",
+            "step of static_stiffness_converged from the next coarser mesh, no bound of its error",
         ),
         "prestressed_stiffness": (
             directional,
@@ -101,10 +103,13 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
     status = np.full(cells, "", dtype=object)
     message = np.full(cells, "", dtype=object)
     position = {cell: index for index, cell in zip(np.ndindex(cells), study.cells(), strict=True)}
+    commits: set[str] = set()
     for cell, index in position.items():
-        values, status[index], message[index] = _read_cell(results, cell)
-        for name in data.keys() & values.keys():
-            data[name][index] = values[name] * (1e3 if name in _MILLI else 1.0)
+        record = _read_cell(results, cell)
+        status[index], message[index] = record.status, record.message
+        commits |= record.commits
+        for name in data.keys() & record.values.keys():
+            data[name][index] = record.values[name] * (1e3 if name in _MILLI else 1.0)
     cube = xr.Dataset(
         {
             name: (_CELL + dims, data[name], {"units": units, "long_name": text})
@@ -120,6 +125,7 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
             "study": study.study.name,
             "config": study.to_yaml(),
             **provenance(),
+            "realisation_commits": ", ".join(sorted(commits)),
         },
     )
     bounds, _ = read_record(results / "cylinder.nc")
@@ -158,14 +164,23 @@ def _coordinates(study: StudyConfig) -> dict[str, tuple[str, np.ndarray, dict]]:
     }
 
 
-def _read_cell(results: Path, cell: Cell) -> tuple[dict[str, np.ndarray], str, str]:
+@dataclass(frozen=True)
+class _Cell:
+    values: dict[str, np.ndarray]
+    status: str
+    message: str
+    commits: set[str]
+
+
+def _read_cell(results: Path, cell: Cell) -> _Cell:
     folder = results / "realisations" / cell.thickness_id / cell.overlength_id / str(cell.seed)
-    crumpled, _ = read_record(folder / "crumple.nc")
+    crumpled, crumple_attributes = read_record(folder / "crumple.nc")
     responded, attributes = read_record(folder / "response.nc")
     status, message = attributes["status"], attributes["message"]
-    if status not in ("converged", "not_converged"):
-        return {}, status, message  # whatever the crumple holds, the cell has failed
-    return crumpled | responded, status, message
+    commits = {a.get("git_commit", "unknown") for a in (crumple_attributes, attributes)}
+    if status not in USABLE:
+        return _Cell({}, status, message, commits)  # whatever the crumple holds, it has failed
+    return _Cell(crumpled | responded, status, message, commits)
 
 
 def _write(cube: xr.Dataset, path: Path) -> None:
@@ -174,13 +189,8 @@ def _write(cube: xr.Dataset, path: Path) -> None:
         for name, variable in cube.data_vars.items()
         if variable.dtype.kind == "f"
     }
-    path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
-    try:
+    with written_whole(path) as partial:
         cube.to_netcdf(partial, engine="netcdf4", encoding=encoding)
-        os.replace(partial, path)
-    finally:
-        partial.unlink(missing_ok=True)
 
 
 def open_cube(path: str | Path) -> xr.Dataset:
@@ -202,16 +212,19 @@ def open_cube(path: str | Path) -> xr.Dataset:
         If there is no such file, or if it is not a cube of this package.
     """
     path = Path(path)
-    if not path.is_file():
+    if not path.exists():
         raise ValueError(f"{path} does not exist; run the study first or correct the path.")
+    if not path.is_file():
+        raise ValueError(f"{path} is not a file; give the cube.nc of a study.")
     try:
         with xr.open_dataset(path, engine="netcdf4") as file:
             cube = file.load()
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RuntimeError) as error:
         raise ValueError(
             f"{path} is not a NetCDF file that can be read ({error}); give the cube.nc of a study."
         ) from error
-    if cube.attrs.get("Conventions") != CONVENTION:
+    parts = {"dynamic_stiffness_re", "dynamic_stiffness_im"}
+    if cube.attrs.get("Conventions") != CONVENTION or not parts <= set(cube):
         raise ValueError(
             f"{path} is a NetCDF file but not a cube of foilstudy; give the cube.nc of a study, "
             "not the record of one realisation."
@@ -220,4 +233,4 @@ def open_cube(path: str | Path) -> xr.Dataset:
     cube["dynamic_stiffness"] = (real + 1j * imaginary).assign_attrs(
         units="N/m", long_name="dynamic stiffness"
     )
-    return cube.drop_vars(["dynamic_stiffness_re", "dynamic_stiffness_im"])
+    return cube.drop_vars(parts)

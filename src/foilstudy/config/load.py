@@ -60,6 +60,8 @@ def _read_file(path: Path) -> Any:
         raise ConfigError("this is a folder; give the path of a YAML file in it.") from None
     except UnicodeDecodeError:
         raise ConfigError("this is not a text file; save it as UTF-8.") from None
+    except ValueError:
+        raise ConfigError("this is not a path; check it.") from None
     except OSError as error:
         raise ConfigError(
             f"the file cannot be read ({error.strerror}); check its permissions."

@@ -149,13 +149,15 @@ class StudyConfig(Section):
                 f"shortest cylinder (at least {ELEMENTS_ALONG_MIN}); use {_floor(finest)} mm or "
                 "less."
             )
-        elements = circumference * heights[-1] / size**2
+        finest = size / 2**self.stiffness.refinements
+        elements = circumference * heights[-1] / finest**2
         if elements > ELEMENTS_MAX:
-            coarser = math.sqrt(circumference * heights[-1] / ELEMENTS_MAX)
+            coarser = size * math.sqrt(elements / ELEMENTS_MAX)
             yield (
                 f"mesh.element_size_mm is {size:g} mm, which makes {elements:.2g} elements on the "
-                f"longest cylinder (at most {ELEMENTS_MAX:g}); use {coarser:.2g} mm or more, and "
-                "check that the value is in mm."
+                f"longest cylinder, refined {self.stiffness.refinements} times (at most "
+                f"{ELEMENTS_MAX:g}); use {coarser:.2g} mm or more, and check that the value is in "
+                "mm."
             )
 
     def _thickness_problems(self) -> Iterator[str]:

@@ -47,10 +47,10 @@ class Sheet(Section):
     """Cylinder of foil and the gap it is crumpled into."""
 
     diameter_mm: float = unit_field(
-        "mm", "Diameter of the foil cylinder and of both end rings.", 200.0, gt=0, le=10_000
+        "mm", "Diameter of the foil cylinder and of both end rings.", 200.0, ge=1, le=10_000
     )
     gap_height_mm: float = unit_field(
-        "mm", "Height between the end rings after crumpling.", 130.0, gt=0, le=10_000
+        "mm", "Height between the end rings after crumpling.", 130.0, ge=1, le=10_000
     )
 
 
@@ -216,7 +216,7 @@ class Mesh(Section):
         "Edge length of the elements; at least 24 fit around the cylinder and 8 along the "
         "shortest one.",
         5.0,
-        gt=0,
+        ge=1e-4,
         le=1_000,
     )
 
@@ -244,9 +244,10 @@ class Relaxation(Section):
         ge=0,
         le=1,
     )
-    history_interval: int = unit_field(
-        "steps", "Steps between two entries of the history.", 20, ge=1, le=1_000_000
-    )
+    check_interval: int = unit_field(
+        "steps", "Steps between two checks for equilibrium and entries of the history.", 20, ge=1,
+        le=1000,
+    )  # fmt: skip
 
 
 class Stiffness(Section):
@@ -267,7 +268,7 @@ class Dynamics(Section):
     cutoff_hz: float = unit_field(
         "Hz", "Free modes up to this frequency are kept.", 1000.0, gt=0, le=1e6
     )
-    shown_min_hz: float = unit_field("Hz", "Lowest frequency computed.", 1.0, gt=0, le=1e6)
+    shown_min_hz: float = unit_field("Hz", "Lowest frequency computed.", 1.0, ge=0.01, le=1e6)
     shown_max_hz: float = unit_field(
         "Hz", "Highest frequency computed, below the cut-off.", 800.0, gt=0, le=1e6
     )

@@ -69,9 +69,10 @@ def dynamic_stiffness(
     for d, direction in enumerate(DIRECTIONS):
         pairs = np.array([(motion, motion + 6) for motion in MOTIONS[direction]])
         blocks = full[:, pairs[:, :, None], pairs[:, None, :]]  # frequency, motion, ring, ring
-        apart = np.array([1.0, -1.0])
-        relative = 1 / np.einsum("i,fmij,j->fm", apart, np.linalg.inv(blocks), apart)
-        out[0, d] = -blocks[:, :, 1, 0].mean(axis=1)
-        out[1, d] = blocks[:, :, 0, 0].mean(axis=1)
+        bottom, top, between = blocks[..., 0, 0], blocks[..., 1, 1], blocks[..., 0, 1]
+        # inverse of (1, -1) B^-1 (1, -1)^T for the 2 x 2 block B of one motion
+        relative = (bottom * top - between**2) / (bottom + top + 2 * between)
+        out[0, d] = -between.mean(axis=1)
+        out[1, d] = bottom.mean(axis=1)
         out[2, d] = relative.mean(axis=1)
     return out

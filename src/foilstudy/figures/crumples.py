@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
+from foilstudy.outcome import USABLE
 from foilstudy.patch import knot_points
-from foilstudy.statistics.cells import USABLE
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,8 @@ from foilstudy.figures.style import (
     thickness_label,
     value_ticks,
 )
-from foilstudy.statistics.cells import USABLE, good
+from foilstudy.outcome import USABLE
+from foilstudy.statistics.cells import good
 
 
 @styled

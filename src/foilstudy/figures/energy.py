@@ -12,7 +12,7 @@ from foilstudy.figures.style import (
     styled,
     thickness_label,
 )
-from foilstudy.statistics.cells import USABLE
+from foilstudy.outcome import USABLE
 
 _PARTS = {"bending": ("0.35", ""), "membrane": ("0.65", ""), "stabilisation": ("#d95f02", "///")}
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from importlib import import_module
 from pathlib import Path
+
+from foilstudy.files import written_whole
 
 PNG_DPI = 150
 
@@ -94,8 +95,9 @@ FIGURES: dict[str, FigureSpec] = {
     "dynamic_stiffness": FigureSpec(
         "Dynamic stiffness",
         "Magnitude of the relative stiffness (a pair of opposite forces on the two rings per "
-        "relative motion, the published definition) against frequency. Line and band: median, "
-        "smallest and largest of the realisations. Triangles at the left: mean static stiffness.",
+        "relative motion, as published; other ring motions held) against frequency. Line and "
+        "band: median, smallest and largest of the realisations. Triangles at the left: mean "
+        "static stiffness.",
         "dynamic_stiffness",
         ("cube",),
         {"definition": "relative"},
@@ -149,7 +151,6 @@ def save(figure, stem) -> tuple[Path, Path]:
     from foilstudy.figures.style import styled
 
     stem = Path(stem)
-    stem.parent.mkdir(parents=True, exist_ok=True)
     return tuple(
         _save_one(styled(figure.savefig), stem.with_name(f"{stem.name}.{suffix}"), metadata)
         for suffix, metadata in (("png", {"Software": None}), ("svg", {"Date": None}))
@@ -157,9 +158,8 @@ def save(figure, stem) -> tuple[Path, Path]:
 
 
 def _save_one(savefig, path: Path, metadata: dict) -> Path:
-    temporary = path.with_name(f"{path.name}.tmp")
-    savefig(temporary, format=path.suffix[1:], dpi=PNG_DPI, metadata=metadata)
-    os.replace(temporary, path)
+    with written_whole(path) as partial:
+        savefig(partial, format=path.suffix[1:], dpi=PNG_DPI, metadata=metadata)
     return path
 
 

@@ -52,6 +52,9 @@ def modes_below(stiffness: sparse.csr_matrix, mass: sparse.csr_matrix, limit: fl
     size = stiffness.shape[0]
     if count == 0:
         return Modes(np.empty(0), np.empty((size, 0)))
+    if 4 * count > size:  # a Krylov space that finds them would nearly fill the whole
+        values, shapes = eigh(stiffness.toarray(), mass.toarray(), subset_by_index=(0, count - 1))
+        return Modes(values, shapes)
     shift = _SHIFT * limit
     capacity = _BLOCK * min(size // _BLOCK, (4 * count) // _BLOCK + 20)
     basis = _LanczosBasis(factorise((stiffness - shift * mass).tocsr()), mass, capacity)

@@ -11,7 +11,7 @@ import numpy as np
 from foilstudy.config import CrumpleTask
 from foilstudy.imperfection import imperfect_cylinder
 from foilstudy.patch import Patch, cylinder_control_points, knot_points
-from foilstudy.realisation.record import Quantity, write_record
+from foilstudy.realisation.record import MACHINE_FAULTS, Quantity, write_record
 from foilstudy.realisation.scene import foil_of, imperfection_of, patch_of
 from foilstudy.relaxation import Ramp, RelaxationResult, Scheme, StoppingRule, relax
 from foilstudy.relaxation.damping import AdaptiveViscousDamping
@@ -43,6 +43,8 @@ def crumple(task: CrumpleTask, path: Path) -> None:
         sheet, result = _relax(task)
         quantities = _quantities(sheet, result)
         attributes |= {"status": result.status, "message": result.message}
+    except MACHINE_FAULTS:
+        raise
     except Exception as error:  # a study must survive any one realisation
         traceback.print_exc()
         quantities = {}
@@ -67,7 +69,7 @@ def _relax(task: CrumpleTask) -> tuple[SheetModel, RelaxationResult]:
         options.residual_tolerance,
         options.kinetic_energy_tolerance,
         options.relaxation_steps_max,
-        options.history_interval,
+        options.check_interval,
     )
     ramp = Ramp(foil.reference_height - foil.gap_height, options.ramp_steps)
     return sheet, relax(sheet, scheme, ramp, rule)

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from foilstudy.config import StudyConfig
+from foilstudy.linalg import SolveError
 from foilstudy.patch import Patch, cylinder_control_points
 from foilstudy.realisation.record import Quantity, write_record
 from foilstudy.realisation.scene import material_of
@@ -31,7 +32,11 @@ def cylinder_bounds(study: StudyConfig, path: Path) -> None:
         for i, thickness_um in enumerate(study.thicknesses_um):
             sheet = SheetModel(patch, points, material, thickness_um * 1e-6, _STABILISATION)
             system = InterfaceSystem.split(stiffness_matrix(sheet), Rings.of(patch, points))
-            bounds[i, j] = fixed_stiffness(condense(system).stiffness)
+            try:
+                bounds[i, j] = fixed_stiffness(condense(system).stiffness)
+            except SolveError as error:  # a missing bound is no reason to lose a study
+                print(f"no bound at {thickness_um:g} um, {height_mm:g} mm: {error}")
+                bounds[i, j] = np.nan
     dims = ("thickness", "overlength", "direction")
     quantity = Quantity(bounds, "N/m", "static stiffness of the uncrumpled cylinder", dims)
     write_record(path, {"cylinder_stiffness": quantity}, {})

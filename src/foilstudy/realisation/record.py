@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,7 +9,12 @@ from pathlib import Path
 import netCDF4
 import numpy as np
 
-ELEMENT = ("element_row", "element_column")
+from foilstudy.files import written_whole
+from foilstudy.provenance import git_commit
+
+MACHINE_FAULTS = (MemoryError, OSError, ImportError)
+"""Faults of the machine rather than of a realisation: their job fails and is done again, where a
+record would be kept as the outcome."""
 
 
 @dataclass(frozen=True)
@@ -34,24 +38,19 @@ def write_record(
         Its folder is made if need be.
     quantities : mapping of str to Quantity
     attributes : mapping
+        The commit of the code is added to them.
     """
-    path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
-    try:
-        with netCDF4.Dataset(partial, "w", format="NETCDF4") as file:
-            file.setncatts(dict(attributes))
-            for name, quantity in quantities.items():
-                values = np.asarray(quantity.values)
-                for dimension, length in zip(quantity.dims, values.shape, strict=True):
-                    if dimension not in file.dimensions:
-                        file.createDimension(dimension, length)
-                options = {"compression": "zlib", "shuffle": True} if values.size > 64 else {}
-                variable = file.createVariable(name, values.dtype, quantity.dims, **options)
-                variable.units, variable.long_name = quantity.units, quantity.long_name
-                variable[...] = values
-        os.replace(partial, path)
-    finally:
-        partial.unlink(missing_ok=True)
+    with written_whole(path) as partial, netCDF4.Dataset(partial, "w", format="NETCDF4") as file:
+        file.setncatts({**attributes, "git_commit": git_commit()})
+        for name, quantity in quantities.items():
+            values = np.asarray(quantity.values)
+            for dimension, length in zip(quantity.dims, values.shape, strict=True):
+                if dimension not in file.dimensions:
+                    file.createDimension(dimension, length)
+            options = {"compression": "zlib", "shuffle": True} if values.size > 64 else {}
+            variable = file.createVariable(name, values.dtype, quantity.dims, **options)
+            variable.units, variable.long_name = quantity.units, quantity.long_name
+            variable[...] = values
 
 
 def read_record(path: Path) -> tuple[dict[str, np.ndarray], dict]:

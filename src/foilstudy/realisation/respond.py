@@ -18,8 +18,9 @@ from foilstudy.dynamics import (
     dynamic_stiffness,
     frequency_grid,
 )
+from foilstudy.outcome import USABLE
 from foilstudy.patch import Patch, refine
-from foilstudy.realisation.record import Quantity, read_record, write_record
+from foilstudy.realisation.record import MACHINE_FAULTS, Quantity, read_record, write_record
 from foilstudy.realisation.scene import foil_of
 from foilstudy.sheet import Foil
 from foilstudy.shell.sheet_model import SheetModel
@@ -32,9 +33,6 @@ from foilstudy.stiffness import (
     fixed_stiffness,
     free_stiffness,
 )
-
-COMPUTED = ("converged", "not_converged")
-"""Statuses of a crumple that has a shape."""
 
 
 @dataclass(frozen=True)
@@ -64,9 +62,11 @@ def respond(task: ResponseTask, crumple_path: Path, path: Path) -> None:
     values, attributes = read_record(crumple_path)
     status, message = attributes["status"], attributes["message"]
     quantities: dict[str, Quantity] = {}
-    if status in COMPUTED:
+    if status in USABLE:
         try:
             quantities = _measure(task, values, attributes)
+        except MACHINE_FAULTS:
+            raise
         except Exception as error:  # a study must survive any one realisation
             traceback.print_exc()
             status, message = "failed", f"{type(error).__name__}: {error}"
@@ -146,7 +146,9 @@ def _prestressed(crumple: _Crumple) -> tuple[np.ndarray, int]:
 
 
 def _static_quantities(static: StaticCondensation, levels: list) -> dict[str, Quantity]:
-    error = np.abs(levels[-1] - levels[-2]) if len(levels) > 1 else np.full(2, np.nan)
+    finest, step = np.full(2, np.nan), np.full(2, np.nan)
+    if len(levels) > 1:
+        finest, step = levels[-1], np.abs(levels[-1] - levels[-2])
     directional = {
         "static_stiffness": (levels[0], "stress-free static stiffness, other motions held"),
         "static_stiffness_free": (
@@ -154,12 +156,12 @@ def _static_quantities(static: StaticCondensation, levels: list) -> dict[str, Qu
             "stress-free static stiffness, other motions free",
         ),
         "static_stiffness_converged": (
-            levels[-1],
+            finest,
             "stress-free static stiffness of the same shape on the finest exactly refined mesh",
         ),
         "static_stiffness_mesh_error": (
-            error,
-            "difference to the next coarser mesh, which estimates the mesh error",
+            step,
+            "step of static_stiffness_converged from the next coarser mesh",
         ),
     }
     quantities = {
@@ -181,6 +183,7 @@ def _dynamic_quantities(task: ResponseTask, structure: Structure) -> dict[str, Q
     grid = frequency_grid(options.shown_min_hz, options.shown_max_hz, options.frequencies)
     stiffness = dynamic_stiffness(model, grid, options.damping_percent / 100)
     eigenfrequencies = model.clamped_eigenfrequencies(options.eigenfrequencies)
+    eigenfrequencies[eigenfrequencies > options.cutoff_hz] = np.nan
     dims = ("definition", "direction", "frequency")
     return {
         "frequency": Quantity(grid, "Hz", "frequency", ("frequency",)),

@@ -236,6 +236,12 @@ class _Recorder:
         self._last = _Entry(float(residual), float(kinetic), float(energies.sum()))
         return self._last
 
+    def _energy_words(self) -> str:
+        ratio = self._last.kinetic_energy_ratio
+        if not np.isfinite(ratio):
+            return "the energy was not finite"
+        return f"the kinetic energy was {ratio:.1g} of the strain energy"
+
     def result(self, status, step, points, rule) -> RelaxationResult:
         last = self._last
         table = np.array(self._rows).T
@@ -247,8 +253,8 @@ class _Recorder:
                 f"{rule.kinetic_energy_tolerance:.1e}) when the step limit of {step} was reached"
             ),
             "diverged": (
-                f"the kinetic energy was {last.kinetic_energy_ratio:.1g} of the strain energy at "
-                f"step {step}: the pseudo-time stepping is unstable"
+                f"the stepping was unstable: {self._energy_words()} at step {step}; use a smaller "
+                "imperfection or more ramp steps"
             ),
         }
         height = points[2, -RING_ROWS:].mean() + self._ramp.shortening_at(step)

@@ -1,4 +1,4 @@
-"""What the relaxation asks of a mass scaling, and the scalings by name."""
+"""What the relaxation asks of a mass scaling."""
 
 from __future__ import annotations
 

@@ -7,8 +7,9 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from foilstudy.outcome import STATUSES
 from foilstudy.reference import Published
-from foilstudy.report.health import STATUSES, Health, Spread
+from foilstudy.report.health import Health, Spread
 from foilstudy.report.laws import Exponent
 from foilstudy.report.numerals import (
     fixed,

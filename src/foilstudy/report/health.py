@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-STATUSES = ("converged", "not_converged", "diverged", "failed")
+from foilstudy.outcome import STATUSES
 
 _CELL = ("thickness", "overlength", "seed")
 _STAGES = {

@@ -3,7 +3,6 @@
 import base64
 import hashlib
 import os
-import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +14,7 @@ import yaml
 
 from foilstudy.figures import FIGURES
 from foilstudy.figures.registry import PNG_DPI
+from foilstudy.files import written_whole
 from foilstudy.reference import published
 from foilstudy.report import findings, laws, numerals, viewer
 from foilstudy.report.health import assess
@@ -100,7 +100,9 @@ def write_report(inputs: ReportInputs, out_path: Path) -> Path:
     out_path = Path(out_path)
     with xr.open_dataset(inputs.cube_path) as cube:
         content = _content(inputs, cube, out_path.parent)
-    _write_atomically(_environment().get_template("report.html").render(content), out_path)
+    page = _environment().get_template("report.html").render(content)
+    with written_whole(out_path) as partial:
+        partial.write_text(page, encoding="utf-8")
     return out_path
 
 
@@ -197,21 +199,17 @@ def _refinements(config: dict) -> int:
 
 
 def _figures(folder: Path) -> dict[str, list[Figure]]:
-    """Embed every figure there is, by section."""
+    """Embed every figure of the study that there is, by section."""
     stems = {path.stem for path in Path(folder).glob("*") if path.suffix in (".png", ".svg")}
     placed = {stem: name for name, order in SECTIONS.items() for stem in order}
     sections: dict[str, list[Figure]] = {name: [] for name in (*SECTIONS, "other")}
-    known = [stem for stem in placed if stem in stems]
-    for stem in known + sorted(stems - set(known)):
-        entry = FIGURES.get(stem)
-        sections[placed.get(stem, "other")].append(
-            Figure(
-                stem,
-                entry.title if entry else stem,
-                entry.caption if entry else "",
-                *_picture(Path(folder), stem),
+    for stem in [*placed, *(stem for stem in FIGURES if stem not in placed)]:
+        if stem in stems:
+            entry = FIGURES[stem]
+            picture = _picture(Path(folder), stem)
+            sections[placed.get(stem, "other")].append(
+                Figure(stem, entry.title, entry.caption, *picture)
             )
-        )
     return sections
 
 
@@ -258,16 +256,3 @@ def _files(inputs: ReportInputs, folder: Path) -> list[tuple[str, str, str]]:
         relative = Path(os.path.relpath(path, folder)).as_posix()
         links.append((relative, jinja2.filters.do_urlencode(relative), meaning))
     return links
-
-
-def _write_atomically(text: str, path: Path) -> None:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(text)
-        os.chmod(temporary, 0o644)
-        os.replace(temporary, path)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise

@@ -11,6 +11,7 @@ import scipy.sparse as sparse
 from numba import njit
 
 from foilstudy.patch import Patch
+from foilstudy.shell import kernels
 from foilstudy.shell.sheet_model import SheetModel
 
 _VALUE = np.array([0.125, 0.75, 0.125])
@@ -37,12 +38,13 @@ def stencil(patch: Patch) -> np.ndarray:
 
 
 @njit(cache=True, error_model="numpy")
-def _hessian(a, law, reference, bend, grad1, grad2, stressed, hessian, strain_rows):
+def _hessian(a, law, reference, factors, stressed, hessian, strain_rows):
     """Hessian of the energy of one element with respect to (a_1, a_2, a_11, a_22, a_12).
 
     `a` has shape (5, 3); `hessian` (15, 15) is overwritten. With `stressed` false only the
     material part at zero strain is formed (the stiffness of the shape taken as stress-free).
     """
+    bend, grad1, grad2 = factors
     a1, a2, a11, a22, a12 = a[0], a[1], a[2], a[3], a[4]
     normal = np.cross(a1, a2)
     det = np.sum(normal * normal)
@@ -82,16 +84,16 @@ def _hessian(a, law, reference, bend, grad1, grad2, stressed, hessian, strain_ro
             b[3 + k, 6 + 3 * k + c] = -factor * normal[c]
             b[3 + k, c] = factor * g1 * normal[c]
             b[3 + k, 3 + c] = factor * g2 * normal[c]
-    c = np.empty((3, 3))
-    c[0, 0], c[1, 1], c[2, 2] = law[0], law[1], law[5]
-    c[0, 1] = c[1, 0] = law[2]
-    c[0, 2] = c[2, 0] = law[3]
-    c[1, 2] = c[2, 1] = law[4]
+    elastic = np.empty((3, 3))
+    elastic[0, 0], elastic[1, 1], elastic[2, 2] = law[0], law[1], law[5]
+    elastic[0, 1] = elastic[1, 0] = law[2]
+    elastic[0, 2] = elastic[2, 0] = law[3]
+    elastic[1, 2] = elastic[2, 1] = law[4]
     hessian[:] = 0.0
     for block in range(4):
         scale = (1.0, bend, grad1, grad2)[block]
         rows = b[3 * block : 3 * block + 3]
-        hessian += rows.T @ (scale * c @ rows)
+        hessian += rows.T @ (scale * elastic @ rows)
     if not stressed:
         return
     strain = np.empty(12)
@@ -107,10 +109,10 @@ def _hessian(a, law, reference, bend, grad1, grad2, stressed, hessian, strain_ro
     strain[9] = np.sum(a12 * a1) - reference[9]
     strain[10] = np.sum(a22 * a2) - reference[10]
     strain[11] = np.sum(a12 * a2) + np.sum(a22 * a1) - reference[11]
-    n = c @ strain[0:3]
-    m = bend * (c @ strain[3:6])
-    s = grad1 * (c @ strain[6:9])
-    r = grad2 * (c @ strain[9:12])
+    n = elastic @ strain[0:3]
+    m = bend * (elastic @ strain[3:6])
+    s = grad1 * (elastic @ strain[6:9])
+    r = grad2 * (elastic @ strain[9:12])
     for k in range(3):
         hessian[k, k] += n[0]
         hessian[3 + k, 3 + k] += n[1]
@@ -156,7 +158,6 @@ def _assemble(x, geometry, law, weights, factors, stressed):
     """Blocks of the tangent, shape (rows, columns, 5, 5, 3, 3): control point, neighbour."""
     rows, columns = x.shape[1], x.shape[2]
     n_along = rows - 2
-    bend, grad1, grad2 = factors
     blocks = np.zeros((rows, columns, _REACH, _REACH, 3, 3))
     a = np.empty((5, 3))
     hessian = np.empty((15, 15))
@@ -172,7 +173,7 @@ def _assemble(x, geometry, law, weights, factors, stressed):
                     for p in range(5):
                         a[p, c] += weights[node, p] * value
             _hessian(
-                a, law[j, :, i], geometry[j, :, i], bend, grad1, grad2, stressed, hessian,
+                a, law[j, :, i], geometry[j, :, i], factors, stressed, hessian,
                 strain_rows,
             )  # fmt: skip
             for other in range(9):
@@ -232,12 +233,8 @@ def stiffness_matrix(sheet: SheetModel, points: np.ndarray | None = None) -> spa
     patch = sheet.patch
     if patch.columns < _REACH:
         raise ValueError(f"a patch needs at least {_REACH} elements around, not {patch.columns}")
-    h1, h2 = patch.size_around, patch.size_along
-    factors = (
-        sheet.thickness**2 / 12,
-        sheet.stabilisation * h1**2 / 12,
-        sheet.stabilisation * h2**2 / 12,
-    )
+    around, _ = kernels.scales(patch, sheet.thickness, sheet.stabilisation)
+    factors = around[2:]
     shape = sheet.reference if points is None else points
     blocks = _assemble(
         np.ascontiguousarray(shape), sheet.geometry, sheet.law, stencil(patch), factors,

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-USABLE = ("converged", "not_converged")
-"""Status of a cell whose numbers enter the statistics."""
+from foilstudy.outcome import USABLE
 
 
 @dataclass(frozen=True)

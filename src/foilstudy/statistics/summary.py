@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from foilstudy.outcome import USABLE
 from foilstudy.reference import published
-from foilstudy.statistics.cells import USABLE, good
+from foilstudy.statistics.cells import good
 
 _STIFFNESSES = ("static_stiffness", "static_stiffness_free", "static_stiffness_converged")
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
+from foilstudy.files import written_whole
 from foilstudy.statistics.eigenfrequency import eigenfrequency_table
 from foilstudy.statistics.powerlaw import powerlaw_table
 from foilstudy.statistics.summary import stiffness_summary
@@ -36,14 +36,11 @@ def write_tables(cube_path, out_dir) -> list[Path]:
     import xarray as xr
 
     out_dir = Path(out_dir)
-    out_dir.mkdir(parents=True, exist_ok=True)
     paths = []
     with xr.open_dataset(cube_path) as cube:
         for name, table in TABLES.items():
             path = out_dir / f"{name}.csv"
-            # A killed job must not leave half a table that looks finished.
-            temporary = path.with_suffix(".csv.tmp")
-            table(cube).to_csv(temporary, index=False, float_format="%.6g", lineterminator="\n")
-            os.replace(temporary, path)
+            with written_whole(path) as partial:
+                table(cube).to_csv(partial, index=False, float_format="%.6g", lineterminator="\n")
             paths.append(path)
     return paths
