@@ -72,7 +72,6 @@ def finished(tmp_path_factory):
 def test_tiny_study_has_one_job_per_step_and_realisation(tmp_path):
     jobs = plan(tmp_path, TINY)
     assert jobs == {
-        "compile": 1,
         "crumple": 8,
         "response": 8,
         "cylinder": 1,
@@ -109,7 +108,7 @@ def test_finished_study_has_nothing_to_do(finished):
 def test_title_leaves_all_physics_alone(finished):
     jobs = plan(finished, changed(report={"title": "Another title"}))
     assert jobs["report"] == 1
-    assert not {"compile", "crumple", "response", "cylinder"} & set(jobs)
+    assert not {"crumple", "response", "cylinder"} & set(jobs)
 
 
 def test_new_thickness_leaves_finished_realisations_alone(finished):

@@ -3,6 +3,7 @@
 import fcntl
 import os
 import shlex
+import subprocess
 import sys
 from importlib.metadata import version
 from pathlib import Path
@@ -39,7 +40,8 @@ VERSION = version("foilstudy")
 # The interpreter that runs Snakemake, whether or not its environment is activated. Plain commands
 # can be repeated by hand, and spare each job the import of Snakemake by `script:`.
 # -P keeps a script's own folder from hiding modules.
-RUN = f"{shlex.quote(sys.executable)} -P {shlex.quote(str(Path(workflow.basedir, 'workflow/scripts')))}"
+SCRIPTS = str(Path(workflow.basedir, "workflow/scripts"))
+RUN = f"{shlex.quote(sys.executable)} -P {shlex.quote(SCRIPTS)}"
 
 CELL = "{thickness}/{overlength}/{seed}"
 CELL_FLAT = "{thickness}_{overlength}_{seed}"
@@ -105,8 +107,23 @@ def claim_results():
         )
 
 
+def compile_kernels():
+    """Fill the kernel cache before the fan-out: two processes writing it at once have crashed.
+
+    In every run rather than as a rule, because the cache belongs to this machine and installation
+    and not to the results.
+    """
+    log = Path(LOGS, "compile.log")
+    log.parent.mkdir(parents=True, exist_ok=True)
+    with log.open("w") as output:
+        command = [sys.executable, "-P", f"{SCRIPTS}/compile.py"]
+        if subprocess.run(command, stdout=output, stderr=subprocess.STDOUT).returncode:
+            refuse(f"the kernels could not be compiled; {log} says why.")
+
+
 check_results()
 
 
 onstart:
     claim_results()
+    compile_kernels()

@@ -1,28 +1,7 @@
 """The fan-out: one crumple and one response per thickness, overlength and seed."""
 
 
-rule compile:
-    # Two processes writing one kernel cache have crashed, so this job fills it before the rest;
-    # in every run, as the cache belongs to this machine and installation, not to the results.
-    output:
-        temp(f"{RESULTS}/.compiled"),
-    params:
-        version=VERSION,
-    log:
-        f"{LOGS}/compile.log",
-    benchmark:
-        f"{BENCHMARKS}/compile.tsv"
-    resources:
-        mem_mb=1000,
-    message:
-        "kernels compiled"
-    shell:
-        "{RUN}/compile.py {output} > {log} 2>&1"
-
-
 rule crumple:
-    input:
-        ancient(rules.compile.output),
     output:
         f"{RESULTS}/realisations/{CELL}/crumple.nc",
     params:
@@ -42,8 +21,7 @@ rule crumple:
 
 rule response:
     input:
-        compiled=ancient(rules.compile.output),
-        crumple=rules.crumple.output,
+        rules.crumple.output,
     output:
         f"{RESULTS}/realisations/{CELL}/response.nc",
     params:
@@ -60,12 +38,10 @@ rule response:
     message:
         "response {wildcards.thickness} {wildcards.overlength} seed {wildcards.seed}"
     shell:
-        "{RUN}/response.py {params.task:q} {input.crumple} {output} > {log} 2>&1"
+        "{RUN}/response.py {params.task:q} {input} {output} > {log} 2>&1"
 
 
 rule cylinder:
-    input:
-        ancient(rules.compile.output),
     output:
         f"{RESULTS}/cylinder.nc",
     params:

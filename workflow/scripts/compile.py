@@ -1,10 +1,5 @@
-"""Fill the kernel cache: compile.py MARKER."""
-
-import sys
-from pathlib import Path
+"""Fill the kernel cache: compile.py."""
 
 from foilstudy.warmup import compile_kernels
 
-marker = Path(sys.argv[1])
 compile_kernels()
-marker.touch()
