@@ -172,7 +172,8 @@ def main(configs: list[str]) -> None:
     rows += study_rows(configs)
     lines = ["| | measured | target |", "|---|---|---|"]
     lines += [f"| {what} | {value} | {target} |" for what, value, target in rows]
-    text = f"# Measured\n\n{machine()}. Medians of {REPEATS} runs.\n\n" + "\n".join(lines) + "\n"
+    how = f"{machine()}. Medians of {REPEATS} runs; realisations and studies are single runs."
+    text = "\n".join(["# Measured", "", how, "", *lines, ""])
     (ROOT / "benchmarks" / "results.md").write_text(text, encoding="utf-8")
     print(text)
 
