@@ -4,7 +4,7 @@ The strains are sampled at the element middle: membrane strain e_ab = (a_a.a_b -
 bending strain k_ab = B_ab - b_ab with b_ab = a_,ab . a_3. The in-plane checkerboard that one point
 leaves free is held by the first-order variation of the membrane strain over the element,
 (h_1^2/12)|e_,1|^2 + (h_2^2/12)|e_,2|^2, times a factor chi; the second derivatives that bending
-needs anyway provide it. A row of elements is one vectorisable loop.
+needs anyway provide it. Up to `CHUNK` elements of a row are one vectorised loop.
 """
 
 from __future__ import annotations
@@ -18,9 +18,6 @@ overlap, without which it does not vectorise."""
 _WIDE = CHUNK + 4
 VALUES = 18
 """Values kept per element: 12 of the reference geometry, 6 of the constitutive law."""
-
-MEMBRANE, BENDING, STABILISATION = 0, 1, 2
-"""Positions in the energies that `internal_force` returns."""
 
 
 @njit(cache=True, fastmath=True, error_model="numpy")
