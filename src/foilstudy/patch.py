@@ -1,13 +1,14 @@
-"""Uniform quadratic B-spline patch, periodic in theta, with unclamped (uniform) knots.
+"""Uniform quadratic B-spline patch, closed around (periodic) or open, with unclamped knots.
 
 All elements share one stencil: element ``(j, i)`` is carried by the control rows ``j, j+1, j+2``
-and the control columns ``i, i+1, i+2`` (columns modulo their number). With unclamped knots the
-position and the slope of an edge depend on its two outer control rows only, so that a rigid
-clamped ring owns exactly two rows.
+and the control columns ``i, i+1, i+2`` (modulo their number on a periodic patch). With unclamped
+knots the position and the slope of an edge depend on its two outer control rows only, so that a
+rigid clamped ring owns exactly two rows.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,20 +19,23 @@ RING_ROWS = 2
 
 @dataclass(frozen=True)
 class Patch:
-    """Element grid of a cylinder; the parameters are arc length around and height.
+    """Element grid of a sheet; on a cylinder the parameters are arc length around and height.
 
     Attributes
     ----------
     elements_around, elements_along : int
-        Number of elements around the circumference and along the height.
+        Number of elements in the first (around) and the second parameter direction (along).
     size_around, size_along : float
         Element lengths in the parameter directions, m.
+    periodic : bool
+        Whether the first direction closes on itself.
     """
 
     elements_around: int
     elements_along: int
     size_around: float
     size_along: float
+    periodic: bool = True
 
     @classmethod
     def for_cylinder(cls, diameter: float, height: float, element_size: float) -> Patch:
@@ -48,7 +52,7 @@ class Patch:
     @property
     def columns(self) -> int:
         """Number of control columns."""
-        return self.elements_around
+        return self.elements_around if self.periodic else self.elements_around + 2
 
     @property
     def shape(self) -> tuple[int, int, int]:
@@ -62,7 +66,41 @@ class Patch:
             2 * self.elements_along,
             self.size_around / 2,
             self.size_along / 2,
+            self.periodic,
         )
+
+    def parameters(self) -> tuple[np.ndarray, np.ndarray]:
+        """Parameters (columns,) and (rows,) at which the control points stand; edges are at 0."""
+        around = self.size_around * (np.arange(self.columns) - (0.0 if self.periodic else 0.5))
+        return around, self.size_along * (np.arange(self.rows) - 0.5)
+
+
+def fitted_control_points(
+    patch: Patch, surface: Callable[[np.ndarray, np.ndarray], np.ndarray]
+) -> np.ndarray:
+    """Control points of a smooth surface, accurate to fourth order in the element size.
+
+    P = x - (h^2/8) x'' in both directions, the second difference in place of the derivative, so
+    that the spline takes the values of the surface at the control parameters.
+
+    Parameters
+    ----------
+    patch : Patch
+    surface : callable
+        Maps parameters around and along, arrays of one shape, to positions of shape (3, ...); it
+        is evaluated up to 1.5 elements beyond the edges.
+
+    Returns
+    -------
+    ndarray, shape (3, rows, columns)
+    """
+    around, along = patch.parameters()
+    h1, h2 = patch.size_around, patch.size_along
+    around = np.concatenate([[around[0] - h1], around, [around[-1] + h1]])
+    along = np.concatenate([[along[0] - h2], along, [along[-1] + h2]])
+    x = np.asarray(surface(*np.meshgrid(around, along)))
+    x = x[:, :, 1:-1] - np.diff(x, 2, axis=2) / 8
+    return np.ascontiguousarray(x[:, 1:-1] - np.diff(x, 2, axis=1) / 8)
 
 
 def cylinder_control_points(patch: Patch, diameter: float) -> np.ndarray:
@@ -84,23 +122,25 @@ def cylinder_control_points(patch: Patch, diameter: float) -> np.ndarray:
     return points
 
 
-def knot_points(control_points: np.ndarray) -> np.ndarray:
-    """Surface points at the knots (element corners), shape (3, rows - 1, columns), m."""
+def knot_points(control_points: np.ndarray, periodic: bool = True) -> np.ndarray:
+    """Surface points at the knots (element corners), shape (3, rows - 1, knots around), m."""
     along = 0.5 * (control_points[:, :-1] + control_points[:, 1:])
-    return 0.5 * (along + np.roll(along, -1, axis=2))
+    if periodic:
+        return 0.5 * (along + np.roll(along, -1, axis=2))
+    return 0.5 * (along[:, :, :-1] + along[:, :, 1:])
 
 
-def refine(control_points: np.ndarray) -> np.ndarray:
-    """Split every element in two by knot insertion; the surface is exactly the same.
+def refine(control_points: np.ndarray, periodic: bool = True) -> np.ndarray:
+    """Split every element in two by knot insertion; the surface is exactly the same."""
+    along = _split(control_points[:, :-1], control_points[:, 1:], axis=1)
+    if periodic:
+        return _split(along, np.roll(along, -1, axis=2), axis=2)
+    return _split(along[:, :, :-1], along[:, :, 1:], axis=2)
 
-    Each pair of neighbouring control points p, q gives 3/4 p + 1/4 q and 1/4 p + 3/4 q.
-    """
-    lower, upper = control_points[:, :-1], control_points[:, 1:]
-    along = np.empty((3, 2 * lower.shape[1], control_points.shape[2]))
-    along[:, 0::2] = 0.75 * lower + 0.25 * upper
-    along[:, 1::2] = 0.25 * lower + 0.75 * upper
-    left, right = along, np.roll(along, -1, axis=2)
-    fine = np.empty((3, along.shape[1], 2 * along.shape[2]))
-    fine[:, :, 0::2] = 0.75 * left + 0.25 * right
-    fine[:, :, 1::2] = 0.25 * left + 0.75 * right
-    return fine
+
+def _split(lower: np.ndarray, upper: np.ndarray, axis: int) -> np.ndarray:
+    """Each pair of neighbouring control points p, q gives 3/4 p + 1/4 q and 1/4 p + 3/4 q."""
+    pairs = np.stack([0.75 * lower + 0.25 * upper, 0.25 * lower + 0.75 * upper], axis=axis + 1)
+    shape = list(lower.shape)
+    shape[axis] *= 2
+    return pairs.reshape(shape)

@@ -21,12 +21,14 @@ VALUES = 18
 
 
 @njit(cache=True, fastmath=True, error_model="numpy")
-def reference_geometry(x, h1, h2):
+def reference_geometry(x, n_around, h1, h2):
     """First and second fundamental forms and membrane-strain gradients at element middles.
 
     Parameters
     ----------
     x : ndarray, shape (3, rows, columns)
+    n_around : int
+        Elements around: as many as columns on a periodic patch, two less on an open one.
     h1, h2 : float
         Element lengths around and along.
 
@@ -36,12 +38,12 @@ def reference_geometry(x, h1, h2):
         a_11, a_22, 2 a_12, b_11, b_22, 2 b_12 and the derivatives in direction 1, then 2, of
         (a_11/2, a_22/2, a_12).
     """
-    n_along, n_around = x.shape[1] - 2, x.shape[2]
+    n_along, columns = x.shape[1] - 2, x.shape[2]
     out = np.empty((n_along, 12, n_around))
     a = np.empty((5, 3))
     for j in range(n_along):
         for i in range(n_around):
-            i1, i2 = (i + 1) % n_around, (i + 2) % n_around
+            i1, i2 = (i + 1) % columns, (i + 2) % columns
             for c in range(3):
                 p = x[c, j]
                 q = x[c, j + 1]
@@ -224,7 +226,7 @@ def _add_energies(g, count, energy):
 
 
 @njit(cache=True, fastmath=True, error_model="numpy")
-def internal_force(x, elements, scales_around, scales_along, force):
+def internal_force(x, n_around, elements, scales_around, scales_along, force):
     """Internal force, the derivative of the strain energy with respect to the control points.
 
     f_I = sum over elements w [n^ab N_I,a a_b - m^ab (N_I,ab - G^c_ab N_I,c) a_3] and the same for
@@ -234,6 +236,8 @@ def internal_force(x, elements, scales_around, scales_along, force):
     ----------
     x : ndarray, shape (3, rows, columns)
         Control points, m; C order.
+    n_around : int
+        Elements around: as many as columns on a periodic patch, two less on an open one.
     elements : ndarray
         From `pack`.
     scales_around, scales_along : tuple of float
@@ -246,7 +250,7 @@ def internal_force(x, elements, scales_around, scales_along, force):
     ndarray, shape (3,)
         Membrane, bending and stabilisation energy, J.
     """
-    n_along, n_around = x.shape[1] - 2, x.shape[2]
+    n_along, columns = x.shape[1] - 2, x.shape[2]
     d1, dd1, bend, grad1, grad2 = scales_around
     d2, dd2 = scales_along
     buf = np.zeros(9 * _WIDE)
@@ -258,7 +262,7 @@ def internal_force(x, elements, scales_around, scales_along, force):
         for chunk in range(n_chunks):
             start = chunk * CHUNK
             n = min(CHUNK, n_around - start)
-            inside = min(n + 2, n_around - start)
+            inside = min(n + 2, columns - start)
             for c in range(3):
                 p = x[c, j]
                 q = x[c, j + 1]
@@ -271,7 +275,7 @@ def internal_force(x, elements, scales_around, scales_along, force):
                     buf[b1 + i] = (r[start + i] - p[start + i]) * d2
                     buf[b2 + i] = (p[start + i] - 2.0 * q[start + i] + r[start + i]) * dd2
                 for i in range(inside, n + 2):
-                    k = start + i - n_around
+                    k = start + i - columns
                     buf[b0 + i] = 0.125 * (p[k] + r[k]) + 0.75 * q[k]
                     buf[b1 + i] = (r[k] - p[k]) * d2
                     buf[b2 + i] = (p[k] - 2.0 * q[k] + r[k]) * dd2
@@ -311,7 +315,7 @@ def internal_force(x, elements, scales_around, scales_along, force):
                     fq[start + i] += 0.75 * buf[r0 + i] - 2.0 * buf[r2 + i]
                     fr[start + i] += 0.125 * buf[r0 + i] + buf[r1 + i] + buf[r2 + i]
                 for i in range(inside, n + 2):
-                    k = start + i - n_around
+                    k = start + i - columns
                     fp[k] += 0.125 * buf[r0 + i] - buf[r1 + i] + buf[r2 + i]
                     fq[k] += 0.75 * buf[r0 + i] - 2.0 * buf[r2 + i]
                     fr[k] += 0.125 * buf[r0 + i] + buf[r1 + i] + buf[r2 + i]

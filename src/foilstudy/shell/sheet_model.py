@@ -91,7 +91,7 @@ class SheetModel:
         self.thickness = thickness
         self.stabilisation = stabilisation
         self.geometry = kernels.reference_geometry(
-            self.reference, patch.size_around, patch.size_along
+            self.reference, patch.elements_around, patch.size_around, patch.size_along
         )
         area = patch.size_around * patch.size_along
         self.law = area * plane_stress_law(self.geometry, material, thickness)
@@ -119,7 +119,9 @@ class SheetModel:
         ndarray, shape (3,)
             Membrane, bending and stabilisation energy, J.
         """
-        return kernels.internal_force(points, self._elements, *self._scales, out)
+        return kernels.internal_force(
+            points, self.patch.elements_around, self._elements, *self._scales, out
+        )
 
     def energies(self, points: np.ndarray) -> Energies:
         """Strain energies at the given shape."""

@@ -154,7 +154,7 @@ def _couple(hessian, i, j, value):
 
 
 @njit(cache=True, error_model="numpy")
-def _assemble(x, geometry, law, weights, factors, stressed):
+def _assemble(x, n_around, geometry, law, weights, factors, stressed):
     """Blocks of the tangent, shape (rows, columns, 5, 5, 3, 3): control point, neighbour."""
     rows, columns = x.shape[1], x.shape[2]
     n_along = rows - 2
@@ -164,7 +164,7 @@ def _assemble(x, geometry, law, weights, factors, stressed):
     strain_rows = np.empty((12, 15))
     spread = np.empty((5, 3, 3))
     for j in range(n_along):
-        for i in range(columns):
+        for i in range(n_around):
             a[:] = 0.0
             for node in range(9):
                 column = (i + node % 3) % columns
@@ -197,16 +197,20 @@ def _assemble(x, geometry, law, weights, factors, stressed):
     return blocks
 
 
-def _sparsity(rows: int, columns: int):
+def _sparsity(patch: Patch):
     """Row starts, column indices and the matching selection of stencil entries."""
+    rows, columns = patch.rows, patch.columns
     row = np.arange(rows)[:, None, None, None]
     column = np.arange(columns)[None, :, None, None]
     reach = np.arange(_REACH) - 2
     other_row = row + reach[None, None, :, None]
-    other_column = (column + reach[None, None, None, :]) % columns
+    other_column = column + reach[None, None, None, :]
     shape = (rows, columns, _REACH, _REACH)
-    valid = np.broadcast_to((other_row >= 0) & (other_row < rows), shape)
-    index = np.broadcast_to(other_row * columns + other_column, shape)
+    valid = (other_row >= 0) & (other_row < rows)
+    if not patch.periodic:
+        valid = valid & (other_column >= 0) & (other_column < columns)
+    valid = np.broadcast_to(valid, shape)
+    index = np.broadcast_to(other_row * columns + other_column % columns, shape)
     starts = np.concatenate([[0], np.cumsum(valid.sum(axis=(2, 3)).ravel())])
     return starts, index[valid], valid
 
@@ -231,16 +235,16 @@ def stiffness_matrix(sheet: SheetModel, points: np.ndarray | None = None) -> spa
         If there are fewer than five control points around.
     """
     patch = sheet.patch
-    if patch.columns < _REACH:
+    if patch.periodic and patch.columns < _REACH:
         raise ValueError(f"a patch needs at least {_REACH} elements around, not {patch.columns}")
     around, _ = kernels.scales(patch, sheet.thickness, sheet.stabilisation)
     factors = around[2:]
     shape = sheet.reference if points is None else points
     blocks = _assemble(
-        np.ascontiguousarray(shape), sheet.geometry, sheet.law, stencil(patch), factors,
-        points is not None,
+        np.ascontiguousarray(shape), patch.elements_around, sheet.geometry, sheet.law,
+        stencil(patch), factors, points is not None,
     )  # fmt: skip
-    starts, index, valid = _sparsity(patch.rows, patch.columns)
+    starts, index, valid = _sparsity(patch)
     size = 3 * patch.rows * patch.columns
     matrix = sparse.bsr_matrix((blocks[valid], index, starts), shape=(size, size)).tocsr()
     matrix.sort_indices()

@@ -20,7 +20,9 @@ def von_mises_stress(sheet: SheetModel, points: np.ndarray) -> np.ndarray:
         Pa.
     """
     patch, material = sheet.patch, sheet.material
-    now = kernels.reference_geometry(points, patch.size_around, patch.size_along)
+    now = kernels.reference_geometry(
+        points, patch.elements_around, patch.size_around, patch.size_along
+    )
     change = now - sheet.geometry
     membrane = 0.5 * change[:, :3]
     bending = -change[:, 3:6]
