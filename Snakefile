@@ -24,6 +24,8 @@ report: "workflow/report/workflow.rst"
 include: "workflow/rules/common.smk"
 include: "workflow/rules/realisations.smk"
 include: "workflow/rules/results.smk"
+include: "workflow/rules/verify.smk"
+include: "workflow/rules/elements.smk"
 
 
 localrules:

@@ -72,7 +72,7 @@ def kernel_rows() -> list[tuple[str, str, str]]:
     task = study.crumple_task(study.cells()[0])
     foil, patch = foil_of(task), patch_of(task)
     reference = cylinder_control_points(patch, foil.diameter)
-    sheet = SheetModel(patch, reference, foil.material, foil.thickness, 0.05)
+    sheet = SheetModel(patch, reference, foil.material, foil.thickness)
     points = reference + 1e-3 * np.random.default_rng(0).standard_normal(reference.shape)
     force = np.empty_like(points)
     mass = SpectralMass(sheet)

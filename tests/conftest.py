@@ -9,11 +9,12 @@ import pytest
 
 from foilstudy.imperfection import imperfect_cylinder
 from foilstudy.patch import Patch, cylinder_control_points
-from foilstudy.realisation.crumple import RAMP_DAMPING, RELAXATION_DAMPING
+from foilstudy.realisation.scheme import RAMP_DAMPING, RELAXATION_DAMPING
 from foilstudy.relaxation import Ramp, RelaxationResult, Scheme, StoppingRule, relax
 from foilstudy.relaxation.damping import AdaptiveViscousDamping
 from foilstudy.relaxation.spectral_mass import SpectralMass
 from foilstudy.sheet import Foil, Imperfection, Material
+from foilstudy.shell.elements import DEFAULT_ELEMENT
 from foilstudy.shell.sheet_model import SheetModel
 from foilstudy.shell.tangent import mass_matrix, stiffness_matrix
 from foilstudy.stiffness import InterfaceSystem, Rings, condense
@@ -24,21 +25,28 @@ FEP = Material(youngs_modulus=650e6, poisson_ratio=0.4, density=2150.0, yield_st
 FOIL = Foil(DIAMETER, REFERENCE_HEIGHT, GAP_HEIGHT, THICKNESS, FEP)
 
 
-def cylinder(element_size, *, material=FEP, thickness=THICKNESS, height=REFERENCE_HEIGHT, chi=0.05):
+def cylinder(
+    element_size,
+    *,
+    material=FEP,
+    thickness=THICKNESS,
+    height=REFERENCE_HEIGHT,
+    element=DEFAULT_ELEMENT,
+):
     """Perfect cylinder as a sheet."""
     patch = Patch.for_cylinder(DIAMETER, height, element_size)
     points = cylinder_control_points(patch, DIAMETER)
-    return SheetModel(patch, points, material, thickness, chi)
+    return SheetModel(patch, points, material, thickness, element)
 
 
-def imperfect_sheet(element_size, *, material=FEP, thickness=THICKNESS, seed=0, chi=0.05):
+def imperfect_sheet(element_size, *, material=FEP, thickness=THICKNESS, seed=0):
     """Cylinder with a Gaussian imperfection of 10 um."""
     foil = Foil(DIAMETER, REFERENCE_HEIGHT, GAP_HEIGHT, thickness, material)
     patch = Patch.for_cylinder(DIAMETER, REFERENCE_HEIGHT, element_size)
     imperfection = Imperfection("gaussian", 10e-6, 0.0, (seed, 500_000, 170_000))
     perfect = cylinder_control_points(patch, DIAMETER)
     points = imperfect_cylinder(patch, perfect, foil, imperfection)
-    return SheetModel(patch, points, material, thickness, chi)
+    return SheetModel(patch, points, material, thickness)
 
 
 def relaxed(sheet, shortening, *, ramp_steps, steps_max, tolerance=1e-8, safety=1.5):
@@ -81,7 +89,7 @@ def coarse_crumple() -> Crumple:
     result = relaxed(sheet, REFERENCE_HEIGHT - GAP_HEIGHT, ramp_steps=1000, steps_max=20000)
     assert result.status == "converged", result.message
     patch, points = sheet.patch, result.points
-    stress_free = SheetModel(patch, points, FEP, THICKNESS, 0.05)
+    stress_free = SheetModel(patch, points, FEP, THICKNESS)
     rings = Rings.of(patch, points)
     mass = mass_matrix(patch, FEP.density * THICKNESS * sheet.element_areas())
     return Crumple(

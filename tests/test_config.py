@@ -131,7 +131,7 @@ def test_yaml_holds_the_whole_configuration(tmp_path):
         copy = tmp_path / file.name
         copy.write_text(config.to_yaml(), encoding="utf-8")
         assert load_config(copy) == config
-        assert "kinetic_energy_tolerance" in config.to_yaml()
+        assert "residual_tolerance" in config.to_yaml()
 
 
 @pytest.mark.parametrize("kind", ["gaussian", "smoothed", "buckling_modes"])

@@ -117,7 +117,7 @@ def test_spoilt_cells_are_flagged_and_empty(cube):
     for name, variable in whole.data_vars.items():
         if variable.dtype.kind == "f" and "seed" in cube[name].dims:
             # without a refinement there is no refined value
-            if name not in ("static_stiffness_converged", "static_stiffness_mesh_error"):
+            if "refined" not in name and not name.endswith(("_converged", "_mesh_error")):
                 assert np.isfinite(variable).any(), name
 
 

@@ -77,7 +77,7 @@ def test_records_of_a_crumple_agree_with_each_other(records):
     for energy in ("membrane", "bending", "stabilisation"):
         last = values[f"history_{energy}_energy"][-1]
         assert last == pytest.approx(values[f"{energy}_energy"], rel=1e-12)
-    assert values["history_step"][-1] == values["steps"]
+    assert values["history_step"][-1] == values["steps"] + values["newton_steps"]
     assert values["equilibrium_residual"] <= 1e-8
     assert 0 <= values["beyond_yield_share"] <= 1 and 0 <= values["self_crossing_share"] <= 1
 
@@ -89,11 +89,11 @@ def test_records_of_a_response_agree_with_each_other(records):
     fixed = fixed_stiffness(values["interface_stiffness"])
     np.testing.assert_array_equal(values["static_stiffness"], fixed)
     step = np.abs(values["static_stiffness_converged"] - values["static_stiffness"])
-    np.testing.assert_array_equal(values["static_stiffness_mesh_error"], step)
+    assert (values["static_stiffness_mesh_error"] >= step / 3).all()
     assert values["dynamic_stiffness_re"].shape == (3, 2, 5)
     assert values["frequency"][[0, -1]].tolist() == [1.0, 100.0]
     assert values["eigenfrequency"][0] == values["first_eigenfrequency"]
-    assert values["negative_eigenvalues"] == 0
+    assert records.crumple["negative_eigenvalues"] == 0
 
 
 def test_every_variable_says_what_it_is(tmp_path):

@@ -65,7 +65,7 @@ def dense_mass(sheet, safety):
 @pytest.mark.parametrize("thickness", [1e-4, 2e-2])
 def test_spectral_solution_equals_the_dense_one(columns, along, thickness):
     patch = Patch(columns, along, np.pi * DIAMETER / columns, 0.03)
-    sheet = SheetModel(patch, cylinder_control_points(patch, DIAMETER), FEP, thickness, 0.05)
+    sheet = SheetModel(patch, cylinder_control_points(patch, DIAMETER), FEP, thickness)
     momentum = np.random.default_rng(0).standard_normal((3, patch.rows - 4, columns))
     dense = dense_mass(sheet, SAFETY)
     expected = np.linalg.solve(dense, momentum.reshape(3, -1).T).T.reshape(momentum.shape)
@@ -238,7 +238,7 @@ def test_symmetry_of_the_cylinder_carries_over_to_the_crumple(symmetry):
     deviation[:, FREE] = 1e-4 * np.random.default_rng(0).standard_normal(deviation[:, FREE].shape)
     shapes = []
     for reference in (perfect + deviation, symmetry(perfect + deviation)):
-        sheet = SheetModel(patch, reference, FEP, THICKNESS, 0.05)
+        sheet = SheetModel(patch, reference, FEP, THICKNESS)
         scheme = Scheme(
             SpectralMass(sheet, SAFETY), AdaptiveViscousDamping(0.5), AdaptiveViscousDamping(0.25)
         )

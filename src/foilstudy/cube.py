@@ -21,7 +21,8 @@ CONVENTION = "foilstudy cube 1"
 
 _CELL = ("thickness", "overlength", "seed")
 _MILLI = {"radial_displacement_min", "radial_displacement_max", "radial_displacement_rms"} | {
-    "element_size"
+    "element_size",
+    "refined_element_size",
 }
 """Lengths that the records hold in m and the cube in mm."""
 
@@ -30,20 +31,38 @@ def _variables(study: StudyConfig) -> dict[str, tuple[tuple[str, ...], str, str]
     """Dimensions beyond the cell, unit and meaning of every variable per realisation."""
     directional = ("direction",)
     dynamic = ("definition", "direction", "frequency")
-    finest = "the same shape on the finest exactly refined mesh"
     return {
         "static_stiffness": (directional, "N/m", "static stiffness, other motions held"),
         "static_stiffness_free": (directional, "N/m", "static stiffness, other motions free"),
-        "static_stiffness_converged": (directional, "N/m", f"static stiffness, {finest}"),
+        "static_stiffness_converged": (
+            directional,
+            "N/m",
+            "static stiffness of the same shape, extrapolated to element size zero",
+        ),
         "static_stiffness_mesh_error": (
             directional,
             "N/m",
-            "step of static_stiffness_converged from the next coarser mesh, no bound of its error",
+            "estimated mesh error of static_stiffness_converged",
         ),
         "prestressed_stiffness": (
             directional,
             "N/m",
             "static stiffness at the stressed equilibrium, other motions held",
+        ),
+        "prestressed_stiffness_converged": (
+            directional,
+            "N/m",
+            "pre-stressed stiffness, relaxed again on the finest mesh",
+        ),
+        "prestressed_stiffness_mesh_error": (
+            directional,
+            "N/m",
+            "step of prestressed_stiffness_converged from the next coarser mesh",
+        ),
+        "refined_static_stiffness": (
+            directional,
+            "N/m",
+            "static stiffness of the shape relaxed again on the finest mesh",
         ),
         "interface_stiffness": (
             ("interface_dof", "interface_dof_in"),
@@ -62,9 +81,14 @@ def _variables(study: StudyConfig) -> dict[str, tuple[tuple[str, ...], str, str]
         "radial_displacement_max": ((), "mm", "largest radial displacement"),
         "radial_displacement_rms": ((), "mm", "root mean square radial displacement"),
         "equilibrium_residual": ((), "1", "force on the free foil over force on the rings"),
-        "kinetic_energy_ratio": ((), "1", "kinetic over strain energy at the end"),
         "negative_eigenvalues": ((), "1", "negative eigenvalues of the tangent at the end"),
         "steps": ((), "1", "pseudo-time steps, ramp included"),
+        "newton_steps": ((), "1", "quasi-Newton steps after them"),
+        "refined_strain_energy": ((), "J", "strain energy, relaxed again on the finest mesh"),
+        "refined_element_size": ((), "mm", "element size of the finest relaxed mesh"),
+        "refined_residual": ((), "1", "equilibrium residual on the finest relaxed mesh"),
+        "refined_negative_eigenvalues": ((), "1", "negative eigenvalues on that mesh"),
+        "refined_steps": ((), "1", "pseudo-time steps on that mesh"),
         "element_size": ((), "mm", "element size of the crumpled mesh"),
         "beyond_yield_share": ((), "1", "share of the surface beyond the yield stress"),
         "self_crossing_share": ((), "1", "share of the surface crossed by another part"),
@@ -72,6 +96,7 @@ def _variables(study: StudyConfig) -> dict[str, tuple[tuple[str, ...], str, str]
         "seconds_crumple": ((), "s", "time of crumpling"),
         "seconds_static": ((), "s", "time of the static stiffness"),
         "seconds_dynamic": ((), "s", "time of the dynamic stiffness"),
+        "seconds_refined": ((), "s", "time of relaxing again on refined meshes"),
         "peak_memory": ((), "MB", "peak memory of the response job"),
     }
 
@@ -180,7 +205,11 @@ def _read_cell(results: Path, cell: Cell) -> _Cell:
     commits = {a.get("git_commit", "unknown") for a in (crumple_attributes, attributes)}
     if status not in USABLE:
         return _Cell({}, status, message, commits)  # whatever the crumple holds, it has failed
-    return _Cell(crumpled | responded, status, message, commits)
+    refined: dict[str, np.ndarray] = {}
+    if (folder / "refined.nc").exists():
+        refined, refined_attributes = read_record(folder / "refined.nc")
+        commits.add(refined_attributes.get("git_commit", "unknown"))
+    return _Cell(crumpled | responded | refined, status, message, commits)
 
 
 def _write(cube: xr.Dataset, path: Path) -> None:

@@ -71,6 +71,11 @@ def response_task(wildcards):
     return STUDY.response_task(STUDY.cell(*wildcards)).model_dump_json()
 
 
+def refine_task(wildcards):
+    """JSON of all that decides what refining makes of the crumpled realisation."""
+    return STUDY.refine_task(STUDY.cell(*wildcards)).model_dump_json()
+
+
 def refuse_results(reason):
     refuse(f"{RESULTS}: cannot be written ({reason}); change that, or run from another folder.")
 

@@ -41,6 +41,27 @@ rule response:
         "{RUN}/response.py {params.task:q} {input} {output} > {log} 2>&1"
 
 
+rule refine:
+    input:
+        rules.crumple.output,
+    output:
+        f"{RESULTS}/realisations/{CELL}/refined.nc",
+    params:
+        task=refine_task,
+        version=VERSION,
+    priority: 1
+    log:
+        f"{LOGS}/refine/{CELL_FLAT}.log",
+    benchmark:
+        f"{BENCHMARKS}/refine/{CELL_FLAT}.tsv"
+    resources:
+        mem_mb=4000,
+    message:
+        "refine {wildcards.thickness} {wildcards.overlength} seed {wildcards.seed}"
+    shell:
+        "{RUN}/refine.py {params.task:q} {input} {output} > {log} 2>&1"
+
+
 rule cylinder:
     output:
         f"{RESULTS}/cylinder.nc",

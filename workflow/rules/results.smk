@@ -2,6 +2,9 @@
 
 CRUMPLES = cell_paths(f"{RESULTS}/realisations/{CELL}/crumple.nc")
 RESPONSES = cell_paths(f"{RESULTS}/realisations/{CELL}/response.nc")
+REFINED = []
+if STUDY.stiffness.relaxed_refinements:
+    REFINED = cell_paths(f"{RESULTS}/realisations/{CELL}/refined.nc")
 
 # Label of each table in `snakemake --report`; captions in workflow/report.
 TABLES = {
@@ -24,6 +27,7 @@ rule cube:
         cylinder=rules.cylinder.output,
         crumples=CRUMPLES,
         responses=RESPONSES,
+        refined=REFINED,
     output:
         f"{RESULTS}/cube.nc",
     params:

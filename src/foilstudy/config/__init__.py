@@ -19,12 +19,13 @@ from .sections import (
     Study,
     Sweep,
 )
-from .tasks import CrumpleTask, ResponseTask
+from .tasks import CrumpleTask, RefineTask, ResponseTask
 
 __all__ = [
     "Cell",
     "ConfigError",
     "CrumpleTask",
+    "RefineTask",
     "Dynamics",
     "Imperfection",
     "Material",

@@ -23,7 +23,7 @@ from .sections import (
     Study,
     Sweep,
 )
-from .tasks import CrumpleTask, ResponseTask
+from .tasks import CrumpleTask, RefineTask, ResponseTask
 
 __all__ = ["Cell", "StudyConfig", "overlength_id", "thickness_id"]
 
@@ -253,8 +253,20 @@ class StudyConfig(Section):
         return ResponseTask(
             sheet=self.sheet,
             material=self.material,
-            stiffness=self.stiffness,
+            refinements=self.stiffness.refinements,
             dynamics=self.dynamics,
+            thickness_um=cell.thickness_um,
+            reference_height_mm=cell.reference_height_mm,
+            seed=cell.seed,
+        )
+
+    def refine_task(self, cell: Cell) -> RefineTask:
+        """Everything, beside the crumpled shape, that decides what refining makes of it."""
+        return RefineTask(
+            sheet=self.sheet,
+            material=self.material,
+            relaxation=self.relaxation,
+            refinements=self.stiffness.relaxed_refinements,
             thickness_um=cell.thickness_um,
             reference_height_mm=cell.reference_height_mm,
             seed=cell.seed,

@@ -219,6 +219,13 @@ class Mesh(Section):
         ge=1e-4,
         le=1_000,
     )
+    element: Literal["corner", "one_point"] = unit_field(
+        "choice",
+        "Where an element samples its strains. `corner`: where folds do not stretch it; "
+        "`one_point`: in its middle, much too stiff at unresolved ridges, as in the published "
+        "work.",
+        "corner",
+    )
 
 
 class Relaxation(Section):
@@ -233,17 +240,6 @@ class Relaxation(Section):
     residual_tolerance: float = unit_field(
         "1", "Free force norm over ring force norm, at equilibrium.", 1e-8, gt=0, lt=1
     )
-    kinetic_energy_tolerance: float = unit_field(
-        "1", "Kinetic over internal energy, at equilibrium.", 1e-8, gt=0, lt=1
-    )
-    stabilisation: float = unit_field(
-        "1",
-        "Share of the first-order variation of the membrane strain within an element: "
-        "0 leaves the hourglass free, 1 locks thin foils.",
-        0.05,
-        ge=0,
-        le=1,
-    )
     check_interval: int = unit_field(
         "steps", "Steps between two checks for equilibrium and entries of the history.", 20, ge=1,
         le=1000,
@@ -255,8 +251,17 @@ class Stiffness(Section):
 
     refinements: int = unit_field(
         "1",
-        "Exact refinements of the crumpled shape, each halving the elements, for the mesh error.",
+        "Exact refinements of the crumpled shape, each halving the elements, for the mesh error "
+        "of the stress-free stiffness; with 2 it is extrapolated.",
         1,
+        ge=0,
+        le=3,
+    )
+    relaxed_refinements: int = unit_field(
+        "1",
+        "Refinements after which the crumple is relaxed again, for the pre-stressed stiffness; "
+        "each costs more than the crumple itself.",
+        0,
         ge=0,
         le=2,
     )

@@ -17,11 +17,10 @@ from .sections import (
     Relaxation,
     Section,
     Sheet,
-    Stiffness,
     Thickness,
 )
 
-__all__ = ["CrumpleTask", "ResponseTask"]
+__all__ = ["CrumpleTask", "RefineTask", "ResponseTask"]
 
 
 class _Task(Section):
@@ -46,8 +45,15 @@ class CrumpleTask(_Task):
     relaxation: Relaxation
 
 
+class RefineTask(_Task):
+    """Relax one crumpled realisation again on refined meshes."""
+
+    relaxation: Relaxation
+    refinements: int = Field(ge=1)
+
+
 class ResponseTask(_Task):
     """Static and dynamic stiffness of one crumpled realisation."""
 
-    stiffness: Stiffness
+    refinements: int = Field(ge=0)
     dynamics: Dynamics

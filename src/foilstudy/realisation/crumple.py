@@ -4,25 +4,23 @@ from __future__ import annotations
 
 import time
 import traceback
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from foilstudy.config import CrumpleTask
+from foilstudy.equilibrium.settle import SettleOptions, SettleResult, settle
 from foilstudy.imperfection import imperfect_cylinder
-from foilstudy.patch import Patch, cylinder_control_points, knot_points
+from foilstudy.patch import RING_ROWS, Patch, cylinder_control_points, knot_points
 from foilstudy.realisation.record import MACHINE_FAULTS, Quantity, write_record
 from foilstudy.realisation.scene import foil_of, imperfection_of, patch_of
-from foilstudy.relaxation import Ramp, RelaxationResult, Scheme, StoppingRule, relax
-from foilstudy.relaxation.damping import AdaptiveViscousDamping
-from foilstudy.relaxation.spectral_mass import SpectralMass
+from foilstudy.realisation.scheme import crumpling_scheme
+from foilstudy.relaxation import Ramp, RelaxationResult, StoppingRule, relax
+from foilstudy.shell.elements import ELEMENTS
 from foilstudy.shell.intersection import self_crossing_share
-from foilstudy.shell.sheet_model import SheetModel
+from foilstudy.shell.sheet_model import Energies, SheetModel
 from foilstudy.shell.yielding import beyond_yield_share
-
-RAMP_DAMPING, RELAXATION_DAMPING = 0.5, 0.25
-"""Share of the critical damping of the current motion, while the ring moves and after. The Rayleigh
-quotient overestimates the slowest mode, so that less damping settles sooner (docs/method.md)."""
 
 
 def crumple(task: CrumpleTask, path: Path) -> None:
@@ -36,12 +34,13 @@ def crumple(task: CrumpleTask, path: Path) -> None:
         "reference_height_mm": task.reference_height_mm,
         "overlength_percent": task.overlength_percent,
         "seed": task.seed,
-        "stabilisation": task.relaxation.stabilisation,
+        "element": task.mesh.element,
     }
     started = time.perf_counter()
     try:
-        sheet, result = _relax(task)
-        quantities = _quantities(sheet, result)
+        sheet, outcome = _crumpled(task)
+        result = outcome.last
+        quantities = _quantities(sheet, outcome)
         attributes |= {"status": result.status, "message": result.message}
     except MACHINE_FAULTS:
         raise
@@ -55,27 +54,45 @@ def crumple(task: CrumpleTask, path: Path) -> None:
     print(f"{attributes['status']}: {attributes['message']} ({seconds:.1f} s)")
 
 
-def _relax(task: CrumpleTask) -> tuple[SheetModel, RelaxationResult]:
+@dataclass(frozen=True)
+class _Outcome:
+    """How far a realisation came: through the ramp and the first relaxation, then to equilibrium.
+
+    `settled` is None where the first relaxation did not come near an equilibrium.
+    """
+
+    relaxed: RelaxationResult
+    settled: SettleResult | None
+
+    @property
+    def last(self) -> RelaxationResult | SettleResult:
+        return self.settled or self.relaxed
+
+
+def _crumpled(task: CrumpleTask) -> tuple[SheetModel, _Outcome]:
     foil, patch, options = foil_of(task), patch_of(task), task.relaxation
     perfect = cylinder_control_points(patch, foil.diameter)
     reference = imperfect_cylinder(patch, perfect, foil, imperfection_of(task))
-    sheet = SheetModel(patch, reference, foil.material, foil.thickness, options.stabilisation)
-    scheme = Scheme(
-        mass=SpectralMass(sheet),
-        ramp_damping=AdaptiveViscousDamping(RAMP_DAMPING),
-        relaxation_damping=AdaptiveViscousDamping(RELAXATION_DAMPING),
+    element = ELEMENTS[task.mesh.element]
+    sheet = SheetModel(patch, reference, foil.material, foil.thickness, element)
+    scheme = crumpling_scheme(sheet)
+    settling = SettleOptions(
+        options.residual_tolerance, relaxation_steps_max=options.relaxation_steps_max
     )
+    # the motion goes on from the ramp into the relaxation: stopping in between would lead elsewhere
     rule = StoppingRule(
-        options.residual_tolerance,
-        options.kinetic_energy_tolerance,
-        options.relaxation_steps_max,
-        options.check_interval,
+        settling.switch_residual, np.inf, options.relaxation_steps_max, options.check_interval
     )
     ramp = Ramp(foil.reference_height - foil.gap_height, options.ramp_steps)
-    return sheet, relax(sheet, scheme, ramp, rule)
+    relaxed = relax(sheet, scheme, ramp, rule)
+    if relaxed.status != "converged":
+        return sheet, _Outcome(relaxed, None)
+    left = options.relaxation_steps_max - (relaxed.steps - ramp.steps)
+    settling = replace(settling, relaxation_steps_max=left)
+    return sheet, _Outcome(relaxed, settle(sheet, scheme, relaxed.points, settling))
 
 
-def _quantities(sheet: SheetModel, result: RelaxationResult) -> dict[str, Quantity]:
+def _quantities(sheet: SheetModel, outcome: _Outcome) -> dict[str, Quantity]:
     history = {
         "step": ("1", "pseudo-time step"),
         "height": ("m", "height between the rings"),
@@ -86,13 +103,30 @@ def _quantities(sheet: SheetModel, result: RelaxationResult) -> dict[str, Quanti
         "kinetic_energy": ("J", "kinetic energy of the fictitious mass"),
         "residual": ("1", "norm of the force on the free foil over that on the rings"),
     }
-    quantities = {
-        f"history_{name}": Quantity(getattr(result.history, name), units, text, ("history",))
+    tables = {name: getattr(outcome.relaxed.history, name) for name in history}
+    scalars: dict[str, Quantity] = {}
+    if outcome.last.status != "diverged":
+        scalars = _shape(sheet, outcome.last.points) | _scalars(sheet, outcome)
+    if scalars and outcome.settled:
+        end = _end_of_history(scalars, tables["height"][-1])
+        tables = {name: np.append(values, end[name]) for name, values in tables.items()}
+    return scalars | {
+        f"history_{name}": Quantity(tables[name], units, text, ("history",))
         for name, (units, text) in history.items()
     }
-    if result.status == "diverged":
-        return quantities
-    return quantities | _shape(sheet, result.points) | _scalars(sheet, result)
+
+
+def _end_of_history(scalars: dict[str, Quantity], height: float) -> dict[str, float]:
+    """The equilibrium as last entry of the history; quasi-Newton steps count like the others."""
+    names = ("reaction_force", "membrane_energy", "bending_energy", "stabilisation_energy")
+    steps = scalars["steps"].values + scalars["newton_steps"].values
+    return {
+        "step": int(steps),
+        "height": height,
+        "kinetic_energy": 0.0,
+        "residual": scalars["equilibrium_residual"].values,
+        **{name: scalars[name].values for name in names},
+    }
 
 
 def _shape(sheet: SheetModel, points: np.ndarray) -> dict[str, Quantity]:
@@ -117,9 +151,11 @@ def _radial_displacement(surface: np.ndarray, reference: np.ndarray) -> np.ndarr
     return np.hypot(surface[0], surface[1]) - np.hypot(reference[0], reference[1])
 
 
-def _scalars(sheet: SheetModel, result: RelaxationResult) -> dict[str, Quantity]:
-    points, patch = result.points, sheet.patch
-    energies = sheet.energies(points)
+def _scalars(sheet: SheetModel, outcome: _Outcome) -> dict[str, Quantity]:
+    result, settled = outcome.last, outcome.settled
+    points = result.points
+    force = np.empty_like(points)
+    energies = Energies(*sheet.force(points, force))
     surface = knot_points(points)
     radial = _radial_displacement(surface, knot_points(sheet.reference))
     return {
@@ -127,16 +163,25 @@ def _scalars(sheet: SheetModel, result: RelaxationResult) -> dict[str, Quantity]
         "bending_energy": Quantity(energies.bending, "J", "bending energy"),
         "stabilisation_energy": Quantity(energies.stabilisation, "J", "stabilisation energy"),
         "reaction_force": Quantity(
-            result.history.reaction_force[-1], "N", "axial force of the foil on the top ring"
+            -float(force[2, -RING_ROWS:].sum()), "N", "axial force of the foil on the top ring"
         ),
         "equilibrium_residual": Quantity(
             result.residual, "1", "norm of the force on the free foil over that on the rings"
         ),
-        "kinetic_energy_ratio": Quantity(
-            result.kinetic_energy_ratio, "1", "kinetic over strain energy at the end"
+        "negative_eigenvalues": Quantity(
+            _count(settled.negative_eigenvalues if settled else None),
+            "1",
+            "negative eigenvalues of the tangent, rings held",
         ),
-        "steps": Quantity(float(result.steps), "1", "pseudo-time steps, ramp included"),
-        "element_size": Quantity(_element_size(patch), "m", "element length around"),
+        "steps": Quantity(
+            float(outcome.relaxed.steps + (settled.relaxation_steps if settled else 0)),
+            "1",
+            "pseudo-time steps, ramp included",
+        ),
+        "newton_steps": Quantity(
+            float(settled.newton_steps if settled else 0), "1", "quasi-Newton steps after them"
+        ),
+        "element_size": Quantity(_element_size(sheet.patch), "m", "element length"),
         "radial_displacement_min": Quantity(radial.min(), "m", "smallest radial displacement"),
         "radial_displacement_max": Quantity(radial.max(), "m", "largest radial displacement"),
         "radial_displacement_rms": Quantity(
@@ -149,6 +194,10 @@ def _scalars(sheet: SheetModel, result: RelaxationResult) -> dict[str, Quantity]
             self_crossing_share(surface), "1", "share of the surface crossed by another part"
         ),
     }
+
+
+def _count(number: int | None) -> float:
+    return np.nan if number is None else float(number)
 
 
 def _element_size(patch: Patch) -> float:

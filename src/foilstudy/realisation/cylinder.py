@@ -11,12 +11,10 @@ from foilstudy.linalg import SolveError
 from foilstudy.patch import Patch, cylinder_control_points
 from foilstudy.realisation.record import Quantity, write_record
 from foilstudy.realisation.scene import material_of
+from foilstudy.shell.elements import OnePoint
 from foilstudy.shell.sheet_model import SheetModel
 from foilstudy.shell.tangent import stiffness_matrix
 from foilstudy.stiffness import InterfaceSystem, Rings, condense, fixed_stiffness
-
-_STABILISATION = 0.05
-"""The bound is smooth: any factor that holds the checkerboard gives it within 0.1 %."""
 
 
 def cylinder_bounds(study: StudyConfig, path: Path) -> None:
@@ -24,13 +22,14 @@ def cylinder_bounds(study: StudyConfig, path: Path) -> None:
 
     Writes `path` with ``cylinder_stiffness`` of shape (thickness, overlength, direction), N/m.
     """
+    element = OnePoint()  # most accurate where nothing folds
     diameter, material = study.sheet.diameter_mm * 1e-3, material_of(study.material)
     bounds = np.empty((len(study.thicknesses_um), len(study.reference_heights_mm), 2))
     for j, height_mm in enumerate(study.reference_heights_mm):
         patch = Patch.for_cylinder(diameter, height_mm * 1e-3, study.mesh.element_size_mm * 1e-3)
         points = cylinder_control_points(patch, diameter)
         for i, thickness_um in enumerate(study.thicknesses_um):
-            sheet = SheetModel(patch, points, material, thickness_um * 1e-6, _STABILISATION)
+            sheet = SheetModel(patch, points, material, thickness_um * 1e-6, element)
             system = InterfaceSystem.split(stiffness_matrix(sheet), Rings.of(patch, points))
             try:
                 bounds[i, j] = fixed_stiffness(condense(system).stiffness)

@@ -6,7 +6,7 @@ import resource
 import sys
 import time
 import traceback
-from dataclasses import dataclass
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -19,10 +19,10 @@ from foilstudy.dynamics import (
     frequency_grid,
 )
 from foilstudy.outcome import USABLE
-from foilstudy.patch import Patch, refine
+from foilstudy.realisation.crumpled import Crumple
 from foilstudy.realisation.record import MACHINE_FAULTS, Quantity, read_record, write_record
 from foilstudy.realisation.scene import foil_of
-from foilstudy.sheet import Foil
+from foilstudy.shell.elements import STAGGERED
 from foilstudy.shell.sheet_model import SheetModel
 from foilstudy.shell.tangent import mass_matrix, stiffness_matrix
 from foilstudy.stiffness import (
@@ -32,25 +32,9 @@ from foilstudy.stiffness import (
     condense,
     fixed_stiffness,
     free_stiffness,
+    mesh_limit,
+    prestressed_stiffness,
 )
-
-
-@dataclass(frozen=True)
-class _Crumple:
-    """A crumpled shape as read back, SI."""
-
-    foil: Foil
-    patch: Patch
-    points: np.ndarray
-    reference: np.ndarray
-    stabilisation: float
-
-    def sheet(self, reference: np.ndarray, patch: Patch | None = None) -> SheetModel:
-        """A sheet of this foil that is stress-free in the given shape."""
-        foil = self.foil
-        return SheetModel(
-            patch or self.patch, reference, foil.material, foil.thickness, self.stabilisation
-        )
 
 
 def respond(task: ResponseTask, crumple_path: Path, path: Path) -> None:
@@ -82,24 +66,16 @@ def _summary(quantities: dict[str, Quantity]) -> str:
 
 
 def _measure(task: ResponseTask, values: dict, attributes: dict) -> dict[str, Quantity]:
-    foil = foil_of(task)
-    points = values["control_points"]
-    _, rows, columns = points.shape
-    patch = Patch(
-        columns, rows - 2, np.pi * foil.diameter / columns, foil.reference_height / (rows - 2)
-    )
-    reference = values["reference_control_points"]
-    crumple = _Crumple(foil, patch, points, reference, float(attributes["stabilisation"]))
+    crumple = Crumple.recorded(foil_of(task), values, attributes)
     clock = time.perf_counter()
-    stiffness, static = _stress_free(crumple.sheet(points))
-    levels = [fixed_stiffness(static.stiffness), *_refined(task, crumple)]
-    prestressed, negative = _prestressed(crumple)
-    quantities = _static_quantities(static, levels) | {
+    stiffness, static = _stress_free(crumple.sheet(crumple.points))
+    limit = _mesh_limit(task, crumple, fixed_stiffness(static.stiffness))
+    quantities = _static_quantities(static, limit) | {
         "prestressed_stiffness": Quantity(
-            prestressed, "N/m", "tangent stiffness at the stressed equilibrium", ("direction",)
-        ),
-        "negative_eigenvalues": Quantity(
-            float(negative), "1", "negative eigenvalues of the tangent, rings held"
+            prestressed_stiffness(crumple.sheet(crumple.reference), crumple.points),
+            "N/m",
+            "tangent stiffness at the stressed equilibrium",
+            ("direction",),
         ),
     }
     seconds_static = time.perf_counter() - clock
@@ -119,7 +95,7 @@ def _stress_free(sheet: SheetModel) -> tuple[InterfaceSystem, StaticCondensation
     return system, condense(system)
 
 
-def _mass(crumple: _Crumple) -> InterfaceSystem:
+def _mass(crumple: Crumple) -> InterfaceSystem:
     """Mass of the crumpled foil; the areal density is that of the undeformed foil."""
     foil, patch = crumple.foil, crumple.patch
     areas = crumple.sheet(crumple.reference).element_areas()
@@ -127,41 +103,42 @@ def _mass(crumple: _Crumple) -> InterfaceSystem:
     return InterfaceSystem.split(matrix, Rings.of(patch, crumple.points))
 
 
-def _refined(task: ResponseTask, crumple: _Crumple) -> list[np.ndarray]:
-    """Stiffness of the same shape on exactly refined meshes."""
-    patch, points, levels = crumple.patch, crumple.points, []
-    for _ in range(task.stiffness.refinements):
-        patch, points = patch.refined(), refine(points)
-        _, static = _stress_free(crumple.sheet(points, patch))
+def _mesh_limit(
+    task: ResponseTask, crumple: Crumple, coarsest: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Stiffness of the same shape at element size zero and its error, NaN without refinement."""
+    levels, fine = [coarsest], crumple
+    staggered = np.full(2, np.nan)
+    for level in range(task.refinements):
+        fine = fine.refined()
+        _, static = _stress_free(fine.sheet(fine.points))
         levels.append(fixed_stiffness(static.stiffness))
-    return levels
+        if level == 0:
+            other = replace(fine, element=STAGGERED)
+            _, static = _stress_free(other.sheet(fine.points))
+            staggered = fixed_stiffness(static.stiffness)
+    if len(levels) == 1:
+        return np.full(2, np.nan), np.full(2, np.nan)
+    return mesh_limit(levels, staggered)
 
 
-def _prestressed(crumple: _Crumple) -> tuple[np.ndarray, int]:
-    """Stiffness with the stresses left in, and the inertia that says whether it is stable."""
-    rings = Rings.of(crumple.patch, crumple.points)
-    tangent = stiffness_matrix(crumple.sheet(crumple.reference), crumple.points)
-    static = condense(InterfaceSystem.split(tangent, rings))
-    return fixed_stiffness(static.stiffness), static.factor.negative_eigenvalues
-
-
-def _static_quantities(static: StaticCondensation, levels: list) -> dict[str, Quantity]:
-    finest, step = np.full(2, np.nan), np.full(2, np.nan)
-    if len(levels) > 1:
-        finest, step = levels[-1], np.abs(levels[-1] - levels[-2])
+def _static_quantities(static: StaticCondensation, limit: tuple) -> dict[str, Quantity]:
     directional = {
-        "static_stiffness": (levels[0], "stress-free static stiffness, other motions held"),
+        "static_stiffness": (
+            fixed_stiffness(static.stiffness),
+            "stress-free static stiffness, other motions held",
+        ),
         "static_stiffness_free": (
             free_stiffness(static.stiffness),
             "stress-free static stiffness, other motions free",
         ),
         "static_stiffness_converged": (
-            finest,
-            "stress-free static stiffness of the same shape on the finest exactly refined mesh",
+            limit[0],
+            "stress-free static stiffness of the same shape, extrapolated to element size zero",
         ),
         "static_stiffness_mesh_error": (
-            step,
-            "step of static_stiffness_converged from the next coarser mesh",
+            limit[1],
+            "estimated mesh error of static_stiffness_converged",
         ),
     }
     quantities = {

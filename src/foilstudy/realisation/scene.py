@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from foilstudy.config import CrumpleTask, ResponseTask
+from foilstudy.config import CrumpleTask, RefineTask, ResponseTask
 from foilstudy.patch import Patch
 from foilstudy.sheet import Foil, Imperfection, Material
 
@@ -17,7 +17,7 @@ def material_of(section) -> Material:
     )
 
 
-def foil_of(task: CrumpleTask | ResponseTask) -> Foil:
+def foil_of(task: CrumpleTask | RefineTask | ResponseTask) -> Foil:
     """The foil a task is about."""
     return Foil(
         diameter=task.sheet.diameter_mm * 1e-3,

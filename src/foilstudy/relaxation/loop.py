@@ -15,14 +15,17 @@ from foilstudy.shell.sheet_model import SheetModel
 
 @dataclass(frozen=True)
 class Ramp:
-    """Smooth motion of the top ring down to the gap height, in `steps` pseudo-time steps."""
+    """Smooth motion of the top ring down to the gap height, in `steps` pseudo-time steps.
+
+    With zero steps the ring stands still.
+    """
 
     shortening: float
     steps: int
 
     def shortening_at(self, step: int) -> float:
         """Quintic ramp 10 tau^3 - 15 tau^4 + 6 tau^5: no velocity or acceleration at its ends."""
-        tau = min(step / self.steps, 1.0)
+        tau = min(step / self.steps, 1.0) if self.steps else 1.0
         return self.shortening * tau**3 * (10 + tau * (-15 + 6 * tau))
 
 
@@ -155,18 +158,33 @@ def _motion_products(velocity, momentum, force, previous, free_start, free_stop)
     return work, norm
 
 
-def relax(sheet: SheetModel, scheme: Scheme, ramp: Ramp, rule: StoppingRule) -> RelaxationResult:
+def relax(
+    sheet: SheetModel,
+    scheme: Scheme,
+    ramp: Ramp,
+    rule: StoppingRule,
+    start: np.ndarray | None = None,
+) -> RelaxationResult:
     """Push the top ring of a sheet down and relax the sheet to equilibrium.
 
-    Starts from the stress-free shape. Each increment of the ring's motion is spread over the
-    height, so that the sheet does not lag behind at the moving ring.
+    Each increment of the ring's motion is spread over the height, so that the sheet does not lag
+    behind at the moving ring.
+
+    Parameters
+    ----------
+    sheet : SheetModel
+    scheme : Scheme
+    ramp : Ramp
+    rule : StoppingRule
+    start : ndarray, shape (3, rows, columns), optional
+        Control points to start from, at rest, m; the stress-free shape by default.
 
     Returns
     -------
     RelaxationResult
         Never raises for a sheet that fails to converge: the status says so.
     """
-    points = sheet.reference.copy()
+    points = (sheet.reference if start is None else start).copy()
     rows = points.shape[1]
     free = (RING_ROWS, rows - RING_ROWS)
     share = np.clip(points[2].mean(axis=1) / (sheet.patch.size_along * (rows - 2)), 0.0, 1.0)
@@ -200,6 +218,15 @@ def relax(sheet: SheetModel, scheme: Scheme, ramp: Ramp, rule: StoppingRule) -> 
         lowering = ramp.shortening_at(step) - ramp.shortening_at(step - 1)
         _move(points, velocity, share, lowering, *free)
     return recorder.result(status, step, points, rule)
+
+
+def _kinetic_words(last: _Entry, rule: StoppingRule) -> str:
+    if np.isinf(rule.kinetic_energy_tolerance):
+        return ""
+    return (
+        f" and kinetic energy ratio {last.kinetic_energy_ratio:.1e} (wanted "
+        f"{rule.kinetic_energy_tolerance:.1e})"
+    )
 
 
 @dataclass(frozen=True)
@@ -248,9 +275,8 @@ class _Recorder:
         messages = {
             "converged": f"relative residual {last.residual:.1e} after {step} steps",
             "not_converged": (
-                f"relative residual {last.residual:.1e} (wanted {rule.residual_tolerance:.1e}) and "
-                f"kinetic energy ratio {last.kinetic_energy_ratio:.1e} (wanted "
-                f"{rule.kinetic_energy_tolerance:.1e}) when the step limit of {step} was reached"
+                f"relative residual {last.residual:.1e} (wanted {rule.residual_tolerance:.1e})"
+                f"{_kinetic_words(last, rule)} when the step limit of {step} was reached"
             ),
             "diverged": (
                 f"the stepping was unstable: {self._energy_words()} at step {step}; use a smaller "

@@ -1,4 +1,4 @@
-"""The elastic sheet on a patch: packed element data and calls into the kernels."""
+"""The elastic sheet on a patch."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ import numpy as np
 
 from foilstudy.patch import Patch
 from foilstudy.sheet import Material
-from foilstudy.shell import kernels
+from foilstudy.shell.elements import DEFAULT_ELEMENT, Element
+from foilstudy.shell.geometry import plane_stress_law, reference_geometry
 
 
 @dataclass(frozen=True)
@@ -24,39 +25,6 @@ class Energies:
         return self.membrane + self.bending + self.stabilisation
 
 
-def plane_stress_law(geometry: np.ndarray, material: Material, thickness: float) -> np.ndarray:
-    """Membrane stiffness per unit of parameter area, in curvilinear Voigt components.
-
-    n^ab = E t / (1 - nu^2) [nu A^ab A^cd + (1 - nu)/2 (A^ac A^bd + A^ad A^bc)] e_cd, times the
-    area element sqrt(det A) (St. Venant-Kirchhoff, plane stress). The bending law is the same
-    times t^2/12.
-
-    Parameters
-    ----------
-    geometry : ndarray, shape (elements_along, 12, elements_around)
-        As returned by `kernels.reference_geometry`.
-
-    Returns
-    -------
-    ndarray, shape (elements_along, 6, elements_around)
-        Coefficients 11-11, 22-22, 11-22, 11-12, 22-12, 12-12 against (e_11, e_22, 2 e_12), N/m.
-    """
-    nu = material.poisson_ratio
-    a11, a22, a12 = geometry[:, 0], geometry[:, 1], 0.5 * geometry[:, 2]
-    det = a11 * a22 - a12**2
-    i11, i22, i12 = a22 / det, a11 / det, -a12 / det
-    scale = material.youngs_modulus * thickness / (1 - nu**2) * np.sqrt(det)
-    shear = 0.5 * (1 - nu)
-    law = np.empty((geometry.shape[0], 6, geometry.shape[2]))
-    law[:, 0] = scale * i11**2
-    law[:, 1] = scale * i22**2
-    law[:, 2] = scale * (nu * i11 * i22 + (1 - nu) * i12**2)
-    law[:, 3] = scale * i11 * i12
-    law[:, 4] = scale * i22 * i12
-    law[:, 5] = scale * (nu * i12**2 + shear * (i11 * i22 + i12**2))
-    return law
-
-
 class SheetModel:
     """A sheet whose stress-free shape is given by control points.
 
@@ -68,9 +36,15 @@ class SheetModel:
     material : Material
     thickness : float
         m.
-    stabilisation : float
-        Factor chi on the first-order variation of the membrane strain within an element; 1 is the
-        full integral (which locks), 0 leaves the in-plane checkerboard free.
+    element : Element
+        Where the elements sample their strains.
+
+    Attributes
+    ----------
+    geometry : ndarray, shape (elements_along, 12, elements_around)
+        Of the stress-free shape, see `reference_geometry`.
+    law : ndarray, shape (elements_along, 6, elements_around)
+        Membrane stiffness times the area of the element, see `plane_stress_law`.
     """
 
     def __init__(
@@ -79,7 +53,7 @@ class SheetModel:
         reference: np.ndarray,
         material: Material,
         thickness: float,
-        stabilisation: float,
+        element: Element = DEFAULT_ELEMENT,
     ):
         if reference.shape != patch.shape:
             raise ValueError(
@@ -89,14 +63,13 @@ class SheetModel:
         self.reference = np.ascontiguousarray(reference)
         self.material = material
         self.thickness = thickness
-        self.stabilisation = stabilisation
-        self.geometry = kernels.reference_geometry(
+        self.element = element
+        self.geometry = reference_geometry(
             self.reference, patch.elements_around, patch.size_around, patch.size_along
         )
         area = patch.size_around * patch.size_along
         self.law = area * plane_stress_law(self.geometry, material, thickness)
-        self._elements = kernels.pack(self.geometry, self.law)
-        self._scales = kernels.scales(patch, thickness, stabilisation)
+        self._kernel = element.kernel(self)
 
     def element_areas(self) -> np.ndarray:
         """Stress-free area of each element, shape (elements_along, elements_around), m2."""
@@ -119,9 +92,11 @@ class SheetModel:
         ndarray, shape (3,)
             Membrane, bending and stabilisation energy, J.
         """
-        return kernels.internal_force(
-            points, self.patch.elements_around, self._elements, *self._scales, out
-        )
+        return self._kernel.force(points, out)
+
+    def tangent_blocks(self, points: np.ndarray | None) -> np.ndarray:
+        """Derivative of the force, see `ElementKernel.tangent_blocks`."""
+        return self._kernel.tangent_blocks(points)
 
     def energies(self, points: np.ndarray) -> Energies:
         """Strain energies at the given shape."""

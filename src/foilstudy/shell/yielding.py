@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from foilstudy.shell import kernels
+from foilstudy.patch import Patch
+from foilstudy.shell.geometry import reference_geometry
 from foilstudy.shell.sheet_model import SheetModel
 
 
 def von_mises_stress(sheet: SheetModel, points: np.ndarray) -> np.ndarray:
     """Larger von Mises stress of the two faces at the element middles.
 
-    The strain at a face is e_ab +- (t/2) k_ab; its principal values are the eigenvalues of the
-    mixed tensor A^ac e_cb, from which plane stress gives the principal stresses.
+    The strain at a face is e_ab +- (t/2) k_ab, with the membrane strain as the mean of the element
+    corners: in the middle of an element a fold reads as stretching. Its principal values are the
+    eigenvalues of the mixed tensor A^ac e_cb, from which plane stress gives the principal stresses.
 
     Returns
     -------
@@ -20,12 +22,11 @@ def von_mises_stress(sheet: SheetModel, points: np.ndarray) -> np.ndarray:
         Pa.
     """
     patch, material = sheet.patch, sheet.material
-    now = kernels.reference_geometry(
-        points, patch.elements_around, patch.size_around, patch.size_along
+    now = reference_geometry(points, patch.elements_around, patch.size_around, patch.size_along)
+    bending = sheet.geometry[:, 3:6] - now[:, 3:6]
+    membrane = 0.5 * (
+        _corner_mean_metric(points, patch) - _corner_mean_metric(sheet.reference, patch)
     )
-    change = now - sheet.geometry
-    membrane = 0.5 * change[:, :3]
-    bending = -change[:, 3:6]
     a11, a22, a12 = sheet.geometry[:, 0], sheet.geometry[:, 1], 0.5 * sheet.geometry[:, 2]
     det = a11 * a22 - a12**2
     modulus = material.youngs_modulus / (1 - material.poisson_ratio**2)
@@ -41,6 +42,21 @@ def von_mises_stress(sheet: SheetModel, points: np.ndarray) -> np.ndarray:
         s2 = modulus * (second + material.poisson_ratio * first)
         stress = np.maximum(stress, np.sqrt(s1**2 - s1 * s2 + s2**2))
     return stress
+
+
+def _corner_mean_metric(points: np.ndarray, patch: Patch) -> np.ndarray:
+    """a_11, a_22, 2 a_12 averaged over the corners of each element, shape (along, 3, around)."""
+    right = np.roll(points, -1, axis=2) if patch.periodic else points[:, :, 1:]
+    left = points if patch.periodic else points[:, :, :-1]
+    around = (right - left) / patch.size_around
+    across = 0.5 * (right + left)
+    a1 = 0.5 * (around[:, :-1] + around[:, 1:])
+    a2 = (across[:, 1:] - across[:, :-1]) / patch.size_along
+    metric = np.stack([(a1 * a1).sum(0), (a2 * a2).sum(0), 2 * (a1 * a2).sum(0)], axis=1)
+    along = 0.5 * (metric[:-1] + metric[1:])
+    if patch.periodic:
+        return 0.5 * (along + np.roll(along, -1, axis=2))
+    return 0.5 * (along[:, :, :-1] + along[:, :, 1:])
 
 
 def beyond_yield_share(sheet: SheetModel, points: np.ndarray) -> float:

@@ -2,6 +2,8 @@
 
 from foilstudy.stiffness.condensation import InterfaceSystem, StaticCondensation, condense
 from foilstudy.stiffness.directional import fixed_stiffness, free_stiffness
+from foilstudy.stiffness.mesh_error import mesh_limit
+from foilstudy.stiffness.prestressed import prestressed_stiffness
 from foilstudy.stiffness.rings import DOF_NAMES, Rings
 
 __all__ = [
@@ -12,4 +14,6 @@ __all__ = [
     "condense",
     "fixed_stiffness",
     "free_stiffness",
+    "mesh_limit",
+    "prestressed_stiffness",
 ]

@@ -1,0 +1,1 @@
+"""Static equilibrium of a sheet with edges and loads: paths, minima and buckling."""

@@ -1,0 +1,185 @@
+"""From a relaxing sheet to a stable equilibrium between its rings."""
+
+import numpy as np
+import pytest
+from conftest import (
+    DIAMETER,
+    FEP,
+    GAP_HEIGHT,
+    REFERENCE_HEIGHT,
+    THICKNESS,
+    cylinder,
+    imperfect_sheet,
+    relaxed,
+)
+
+from foilstudy.equilibrium.settle import HeldSheet, SettleOptions, settle, stopped_at
+from foilstudy.linalg import factorise
+from foilstudy.patch import RING_ROWS, Patch, cylinder_control_points
+from foilstudy.relaxation import Scheme
+from foilstudy.relaxation.damping import AdaptiveViscousDamping
+from foilstudy.relaxation.spectral_mass import SpectralMass
+from foilstudy.shell.sheet_model import SheetModel
+from foilstudy.shell.tangent import stiffness_matrix
+
+FREE = slice(RING_ROWS, -RING_ROWS)
+
+
+def scheme(sheet):
+    return Scheme(SpectralMass(sheet), AdaptiveViscousDamping(0.5), AdaptiveViscousDamping(0.25))
+
+
+def relative_residual(sheet, points):
+    force = np.empty_like(points)
+    sheet.force(points, force)
+    free = np.linalg.norm(force[:, FREE])
+    return free / np.sqrt(np.linalg.norm(force) ** 2 - free**2)
+
+
+def negative_eigenvalues(sheet, points):
+    owned = 3 * RING_ROWS * sheet.patch.columns
+    return factorise(
+        stiffness_matrix(sheet, points)[owned:-owned, owned:-owned].tocsr()
+    ).negative_eigenvalues
+
+
+@pytest.fixture(scope="module")
+def after_ramp():
+    """The coarse crumple of conftest when its ring has come to rest."""
+    sheet = imperfect_sheet(10e-3)
+    result = relaxed(sheet, REFERENCE_HEIGHT - GAP_HEIGHT, ramp_steps=1000, steps_max=0)
+    return sheet, result.points
+
+
+@pytest.fixture(scope="module")
+def settled(after_ramp):
+    sheet, points = after_ramp
+    return settle(sheet, scheme(sheet), points)
+
+
+def test_settled_crumple_is_a_stable_equilibrium(after_ramp, settled):
+    sheet, start = after_ramp
+    assert settled.status == "converged", settled.message
+    assert relative_residual(sheet, settled.points) <= 1e-8
+    assert settled.residual == pytest.approx(relative_residual(sheet, settled.points), rel=1e-6)
+    assert settled.negative_eigenvalues == negative_eigenvalues(sheet, settled.points) == 0
+    assert sheet.energies(settled.points).total < sheet.energies(start).total
+
+
+def test_rings_do_not_move_in_any_bit(after_ramp, settled):
+    _, start = after_ramp
+    for rows in (slice(0, RING_ROWS), slice(-RING_ROWS, None)):
+        assert np.array_equal(settled.points[:, rows], start[:, rows])
+
+
+def test_settling_ends_in_the_basin_of_the_relaxation(coarse_crumple, settled):
+    assert np.abs(settled.points - coarse_crumple.points).max() < 1e-6
+    assert settled.relaxation_steps < coarse_crumple.result.steps - 1000
+
+
+def test_settled_again_it_stays_where_it_is(after_ramp, settled):
+    sheet, _ = after_ramp
+    again = settle(sheet, scheme(sheet), settled.points)
+    assert (again.status, again.relaxation_steps, again.hessians) == ("converged", 0, 0)
+    assert np.array_equal(again.points, settled.points)
+
+
+def test_the_same_bits_every_time(after_ramp, settled):
+    sheet, points = after_ramp
+    assert np.array_equal(settle(sheet, scheme(sheet), points).points, settled.points)
+
+
+def mirrored(points):
+    """Reflection theta -> -theta: column i goes to -i."""
+    return np.roll(points[:, :, ::-1], 1, axis=2) * np.array([1, -1, 1])[:, None, None]
+
+
+def test_mirrored_sheet_settles_into_the_mirrored_crumple():
+    """Through snaps: the factorisation, whose order is not symmetric, must not choose the basin."""
+    patch = Patch(32, 9, np.pi * DIAMETER / 32, REFERENCE_HEIGHT / 9)
+    perfect = cylinder_control_points(patch, DIAMETER)
+    deviation = np.zeros(patch.shape)
+    deviation[:, FREE] = 1e-4 * np.random.default_rng(0).standard_normal(deviation[:, FREE].shape)
+    shapes = []
+    for reference in (perfect + deviation, mirrored(perfect + deviation)):
+        sheet = SheetModel(patch, reference, FEP, THICKNESS)
+        start = relaxed(sheet, 10e-3, ramp_steps=300, steps_max=0).points
+        result = settle(sheet, scheme(sheet), start)
+        assert result.status == "converged", result.message
+        shapes.append(result.points)
+    moved = np.abs(np.hypot(*shapes[0][:2]) - np.hypot(*perfect[:2])).max()
+    assert moved > 5e-3  # ten times the thickness: it has buckled
+    np.testing.assert_allclose(shapes[1], mirrored(shapes[0]), rtol=0, atol=1e-5 * moved)
+
+
+def test_axisymmetric_state_of_a_buckled_cylinder_is_left():
+    """Beyond the classical load the axisymmetric state is an equilibrium, but a saddle."""
+    sheet = cylinder(20e-3)
+    ring = relaxed(sheet, 2e-3, ramp_steps=200, steps_max=2000)
+    radius = np.hypot(*ring.points[:2])
+    assert np.ptp(radius, axis=1).max() < 1e-9
+    assert negative_eigenvalues(sheet, ring.points) > 0
+    result = settle(sheet, scheme(sheet), ring.points)
+    assert (result.status, result.negative_eigenvalues) == ("converged", 0)
+    assert np.ptp(np.hypot(*result.points[:2]), axis=1).max() > THICKNESS
+    assert sheet.energies(result.points).total < sheet.energies(ring.points).total
+
+
+def test_held_sheet_differentiates_its_energy():
+    sheet = imperfect_sheet(30e-3)
+    rng = np.random.default_rng(3)
+    start = sheet.reference.copy()
+    start[:, FREE] += 2e-3 * rng.standard_normal(start[:, FREE].shape)
+    held = HeldSheet(sheet, start)
+    q = held.unknowns(start)
+    assert np.array_equal(held.points(q), start)
+    direction = rng.standard_normal(q.size) / np.sqrt(q.size)
+    step = 1e-6
+    ahead, behind = (held.value_and_gradient(q + s * direction) for s in (step, -step))
+    _, gradient = held.value_and_gradient(q)
+    assert (ahead[0] - behind[0]) / (2 * step) == pytest.approx(gradient @ direction, rel=1e-6)
+    difference = (ahead[1] - behind[1]) / (2 * step)
+    np.testing.assert_allclose(
+        held.hessian(q) @ direction, difference, rtol=0, atol=1e-6 * np.abs(difference).max()
+    )
+
+
+def test_shapes_at_falling_residuals_come_closer_to_the_equilibrium(after_ramp, settled):
+    sheet, points = after_ramp
+    wanted = (1e-2, 1e-4, 1e-6)
+    stops = list(stopped_at(sheet, scheme(sheet), points, wanted))
+    assert tuple(residual for residual, _ in stops) == wanted
+    assert all(relative_residual(sheet, shape) <= residual for residual, shape in stops)
+    distance = [np.abs(shape - settled.points).max() for _, shape in stops]
+    assert distance[0] > distance[1] > distance[2]
+
+
+def test_residual_that_is_not_reached_ends_the_series(after_ramp):
+    sheet, points = after_ramp
+    assert not list(stopped_at(sheet, scheme(sheet), points, [1e-9], relaxation_steps_max=20))
+
+
+def test_what_the_minimisation_does_not_end_is_relaxed_further(after_ramp):
+    sheet, points = after_ramp
+    assert relative_residual(sheet, points) < 1
+    options = SettleOptions(switch_residual=1.0, hessians_per_round=1)
+    result = settle(sheet, scheme(sheet), points, options)
+    assert (result.status, result.negative_eigenvalues) == ("converged", 0)
+    assert result.relaxation_steps > 0
+
+
+def test_too_few_steps_are_no_success(after_ramp):
+    sheet, points = after_ramp
+    result = settle(sheet, scheme(sheet), points, SettleOptions(relaxation_steps_max=20))
+    assert (result.status, result.relaxation_steps) == ("not_converged", 20)
+    assert result.negative_eigenvalues is None
+    assert "wanted 1.0e-04" in result.message
+
+
+def test_minimisation_that_ends_early_is_no_success(after_ramp):
+    sheet, points = after_ramp
+    options = SettleOptions(residual_tolerance=1e-16, hessians_per_round=1, rounds_max=2)
+    result = settle(sheet, scheme(sheet), points, options)
+    assert result.status == "not_converged"
+    assert result.hessians <= 2
+    assert "wanted 1.0e-16" in result.message

@@ -1,0 +1,10 @@
+"""Relax a crumple again on refined meshes: refine.py TASK_JSON CRUMPLE_NC REFINED_NC."""
+
+import sys
+from pathlib import Path
+
+from foilstudy.config import RefineTask
+from foilstudy.realisation.relax_refined import relax_refined
+
+task_json, crumple_nc, refined_nc = sys.argv[1:]
+relax_refined(RefineTask.model_validate_json(task_json), Path(crumple_nc), Path(refined_nc))
