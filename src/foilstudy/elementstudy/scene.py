@@ -31,7 +31,7 @@ def micrometres(thickness: float) -> int:
 def crumple(
     element: Element, size: float, thickness: float, seed: int, steps_max: int = _STEPS_MAX
 ) -> tuple[SheetModel, RelaxationResult]:
-    """Crumple the foil on a mesh and relax it to a residual of 1e-3, at which energies have settled to 1 %.
+    """Crumple the foil on a mesh and relax it to a residual of 1e-3.
 
     Parameters
     ----------

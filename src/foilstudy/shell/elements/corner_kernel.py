@@ -373,7 +373,7 @@ def internal_force(x, n_around, data, spacings, factors, force):
             start = chunk * CHUNK
             n = min(CHUNK, n_around - start)
             at = (j * n_chunks + chunk) * VALUES * _WIDE
-            # a slice, not an offset, or else the compiler's overlap checks reach beyond the array and
+            # a slice, not an offset, or else the overlap checks of the compiler reach too far and
             # the order of sums depends on where the work array happens to lie
             lanes = data[at : at + VALUES * _WIDE]
             _load(w, x, j, start, n, columns, i2)
