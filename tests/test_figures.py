@@ -133,9 +133,56 @@ def test_stiffness_figure_shows_mean_fit_and_published_law():
     # The published fit at 500 um and 30.8 %.
     at = np.interp(np.log(400 / 13), np.log(dashed.get_xdata()), np.log(dashed.get_ydata()))
     assert np.exp(at) == pytest.approx(10807, rel=1e-3)
-    refined = lines["same shapes, refined mesh"].get_ydata()
-    expected = cube["static_stiffness_converged"].sel(thickness=500, direction="axial")
-    np.testing.assert_allclose(refined, expected.mean("seed"))
+    cube["static_stiffness_mesh_error"][:] = 0.2 * cube["static_stiffness_converged"]
+    ax = FIGURES["stiffness_axial"].draw(cube=cube).axes[-1]
+    bars = {c.get_label(): c for c in ax.containers}["same shapes, mesh limit ± error"]
+    limit = cube["static_stiffness_converged"].sel(thickness=500, direction="axial").mean("seed")
+    np.testing.assert_allclose(bars.lines[0].get_ydata(), limit)
+    ends = np.array([segment[:, 1] for segment in bars.lines[2][0].get_segments()])
+    np.testing.assert_allclose(ends, limit.values[:, None] * [[0.8, 1.2]])
+
+
+def test_prestressed_figure_shows_medians_and_marks_what_is_not_positive():
+    cube = make_cube(cv=scatter, seeds=3, relaxed_again=True)
+    cube["prestressed_stiffness"][3, 0, 0, 0] = -40.0
+    cube["prestressed_stiffness"][3, 1, :, 0] = -40.0
+    figure = FIGURES["prestressed"].draw(cube=cube)
+    thickest = figure.axes[3]  # axial, 500 um
+    bars = {container.get_label(): container for container in thickest.containers}
+    assert set(bars) == {
+        "stress-free, mesh limit",
+        "pre-stressed, crumpled mesh",
+        "pre-stressed, relaxed again",
+    }
+    median = cube["prestressed_stiffness"].sel(thickness=500, direction="axial").median("seed")
+    drawn = bars["pre-stressed, crumpled mesh"].lines[0].get_ydata()
+    np.testing.assert_allclose(drawn, median[[0, 2, 3, 4]])
+    assert [t.get_text() for t in thickest.texts] == ["≤ 0", "1", "3"]
+    assert not figure.axes[2].texts
+
+
+def test_prestressed_figure_survives_a_median_below_every_positive_value():
+    cube = make_cube(thickness_um=(500.0,), reference_height_mm=(170.0,), seeds=2)
+    cube["prestressed_stiffness"][0, 0, :, 0] = [-5.0, 11.0]
+    assert ink(FIGURES["prestressed"].draw(cube=cube)) > 0.01
+
+
+def test_mesh_error_figure_shows_the_stated_relative_error():
+    cube = make_cube(seeds=3)
+    cube["static_stiffness_mesh_error"][:] = 0.05 * cube["static_stiffness_converged"]
+    ax = FIGURES["mesh_error"].draw(cube=cube).axes[0]
+    assert len(ax.containers) == 4
+    for container in ax.containers:
+        np.testing.assert_allclose(container.lines[0].get_ydata(), 5.0)
+
+
+@pytest.mark.parametrize("name", ["prestressed", "mesh_error"])
+def test_figure_of_a_cube_without_its_quantity_says_what_is_missing(name):
+    cube = make_cube(seeds=2)
+    cube["static_stiffness_mesh_error"][:] = np.nan
+    figure = FIGURES[name].draw(cube=cube.drop_vars("prestressed_stiffness"))
+    missing = {"prestressed": "pre-stressed stiffness", "mesh_error": "mesh error"}[name]
+    assert missing in texts(figure)
 
 
 def test_dynamic_stiffness_figure_takes_every_definition():

@@ -16,12 +16,26 @@ import pytest
 import xarray as xr
 
 from foilstudy.report import ReportInputs, write_report
-from foilstudy.report.findings import mesh_sentence
+from foilstudy.report.equilibrium import assess_equilibrium, equilibrium_findings
+from foilstudy.report.exponents import exponent_findings
 from foilstudy.report.health import assess
-from foilstudy.report.laws import Exponent
+from foilstudy.report.laws import Exponent, read_laws
+from foilstudy.report.mesh import (
+    assess_mesh,
+    element_kind,
+    mesh_sentence,
+    share_sentence,
+    stated_error_sentence,
+)
 from foilstudy.report.numerals import fixed, number, percent_range
+from foilstudy.report.prestress import prestress_findings, relaxed_findings, relaxed_rows
 from foilstudy.report.viewer import choose_shapes, decode_points, pack_shape
-from foilstudy.statistics import write_tables
+from foilstudy.statistics import (
+    powerlaw_table,
+    stiffness_summary,
+    variability_table,
+    write_tables,
+)
 
 PIXEL = base64.b64decode(
     "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAQAAAC1HAwCAAAAC0lEQVR42mNk+A8AAQUBAScY42YAAAAASUVORK5CYII="
@@ -29,8 +43,9 @@ PIXEL = base64.b64decode(
 CONFIG = """\
 sheet: {diameter_mm: 200, gap_height_mm: 130}
 material: {name: FEP, youngs_modulus_mpa: 650, poisson_ratio: 0.4}
-mesh: {element_size_mm: 5}
-stiffness: {refinements: 1}
+mesh: {element_size_mm: 5, element: corner}
+relaxation: {residual_tolerance: 1.0e-6, ramp_steps: 2000}
+stiffness: {refinements: 2}
 report: {title: Synthetic study}
 """
 CELL = ("thickness", "overlength", "seed")
@@ -63,6 +78,8 @@ def synthetic_cube(thickness=(50.0, 250.0, 500.0), height=(135.0, 170.0, 250.0),
         "stabilisation_energy": 0.1 * ones * (50 / t),
         "equilibrium_residual": 1e-7 * ones,
         "negative_eigenvalues": np.where(t > 400, 2.0, 0.0) * ones,
+        "steps": 2000 + 1e6 / t * ones,
+        "newton_steps": 12 * ones,
         "radial_displacement_min": -20 * ones,
         "radial_displacement_max": 30.4 * ones,
         "beyond_yield_share": np.where(o > 50, 0.2, 0.0) * ones,
@@ -346,9 +363,9 @@ def test_first_screen_states_the_mesh_error(study):
     with xr.open_dataset(inputs.cube_path) as cube:
         lower = 1 - (cube.static_stiffness_converged / cube.static_stiffness).sel(direction="axial")
         extent = percent_range(float(lower.min()), float(lower.max()))
-    assert f"On the once refined mesh the axial stiffness is {extent} lower" in words(
-        first_screen(page)
-    )
+    text = words(first_screen(page))
+    assert "In the mesh limit (twice refined, extrapolated to element size zero" in text
+    assert f"the axial stiffness is {extent} lower" in text
 
 
 def test_unmeasured_mesh_error_is_not_called_zero(study):
@@ -358,15 +375,157 @@ def test_unmeasured_mesh_error_is_not_called_zero(study):
             static_stiffness_converged=cube.static_stiffness,
             static_stiffness_mesh_error=cube.static_stiffness_mesh_error * np.nan,
         )
-        health = assess(cube)
-    assert mesh_sentence(health, 0, ["axial"]) == (
-        "The mesh error of the stiffness was not measured."
-    )
+        mesh = assess_mesh(cube)
+    assert mesh_sentence(mesh, {}) == "The mesh error of the stiffness was not measured."
+    assert stated_error_sentence(mesh) == ""
+
+
+def test_stated_mesh_error_has_median_and_largest_of_each_thickness():
+    cube = synthetic_cube((50.0, 500.0), (170.0,), 3)
+    limit = cube["static_stiffness_converged"]
+    share = np.array([0.01, 0.02, 0.06])[:, None]
+    cube["static_stiffness_mesh_error"][:] = share * limit
+    mesh = assess_mesh(cube)
+    assert mesh.stated["axial"][50.0].median == pytest.approx(0.02)
+    assert mesh.stated["radial"][500.0].highest == pytest.approx(0.06)
+    text = "2.0 % (largest 6.0 %) at 50 µm, 2.0 % (largest 6.0 %) at 500 µm"
+    assert f"axial {text}; radial {text}." in stated_error_sentence(mesh)
+
+
+def test_finest_mesh_is_not_called_extrapolated():
+    mesh = assess_mesh(synthetic_cube())
+    once = {"mesh": {"element": "corner"}, "stiffness": {"refinements": 1}}
+    assert "(once refined, not extrapolated)" in mesh_sentence(mesh, once)
+    # Cubes from before the element could be chosen hold the finest mesh's own value.
+    old = {"mesh": {}, "stiffness": {"refinements": 2}}
+    assert "(twice refined, not extrapolated)" in mesh_sentence(mesh, old)
+
+
+def test_stabilisation_share_measures_the_mesh_of_the_one_point_element_only():
+    assert "resolve the ridges" in share_sentence({"mesh": {"element": "one_point"}})
+    assert share_sentence({}) == share_sentence({"mesh": {"element": "one_point"}})
+    corner = share_sentence({"mesh": {"element": "corner"}})
+    assert "checkerboard alone" in corner and "does not tell" in corner
+    assert element_kind({}) == "one-point"
+
+
+def laws_with_exponents(limit, stressed):
+    """Laws of a cube whose thickness exponents move by ``limit`` and ``stressed``."""
+    cube = synthetic_cube()
+    factor = cube["thickness"] / 250
+    cube["static_stiffness_converged"] = cube["static_stiffness"] * factor**limit
+    cube["prestressed_stiffness"] = cube["static_stiffness"] * factor**stressed
+    return read_laws(powerlaw_table(cube), stiffness_summary(cube))
+
+
+def test_thickness_exponents_are_held_against_both_published_ones():
+    # Published: 1.40 and 1.60 axial; this study about 1.4.
+    up, _ = exponent_findings(laws_with_exponents(0.5, -0.4))
+    assert "raises it by 0.50: farther from the published simulation and the published" in up
+    assert "stress in lowers it by 0.40: farther from" in up
+    assert "1.40 ± 0.08 (published simulation), 1.60 ± 0.20 (published experiment)" in up
+    some, _ = exponent_findings(laws_with_exponents(0.15, 0.0))
+    assert "nearer to the published experiment, farther from the published simulation" in some
+    assert "Leaving the stress in leaves it as it is." in some
 
 
 def test_prestress_is_named(study):
     _, page = study
-    assert "the stiffness is 0.25 times in the axial direction" in words(page)
+    text = words(page.split('<section id="prestress">')[1].split("</section>")[0])
+    assert "the stiffness is 0.25 times in the axial direction" in text
+    assert "Every pre-stressed value is positive." in text
+    assert "Power law with the stress left in: axial β = " in text
+    assert "Relaxed again" not in text
+
+
+def test_negative_prestressed_values_are_counted_on_the_page(tmp_path):
+    cube = synthetic_cube()
+    cube["prestressed_stiffness"][2, 1, :2, 1] = -30.0
+    inputs = make_study(tmp_path, cube, figures=False)
+    page = write_report(inputs, tmp_path / "report.html").read_text("utf-8")
+    parse(page)
+    assert "Not positive are 2 of 27 radial values" in words(page)
+    assert "2 of 27 values are not positive and do not enter" in words(first_screen(page))
+    assert "<td>2 of 9</td>" in page
+
+
+def test_scatter_of_the_experiment_follows_from_its_r2():
+    cube = synthetic_cube((50.0, 500.0), (135.0, 250.0))
+    laws = read_laws(powerlaw_table(cube), stiffness_summary(cube))
+    text = " ".join(prestress_findings(cube, variability_table(cube), laws))
+    # ln k = -1.8 ln o + 1.6 ln t over two by two points: half the differences, squared, add up.
+    log = 1.8 * math.log(120 / 5) / 2, 1.6 * math.log(10) / 2
+    residual = math.sqrt((log[0] ** 2 + log[1] ** 2) * (1 - 0.856) / 0.856)
+    assert f"the published experiment by about {fixed(math.exp(residual))}" in text
+
+
+def relaxed_cube():
+    """Cube whose shapes were relaxed again on 2.5 mm, all but one of 50 um."""
+    cube = synthetic_cube((50.0, 500.0), (135.0, 170.0), 2)
+    energy = cube["membrane_energy"] + cube["bending_energy"] + cube["stabilisation_energy"]
+    settled = xr.ones_like(energy)
+    settled[0, 0, 0] = np.nan
+    return cube.assign(
+        refined_strain_energy=0.8 * settled * energy,
+        refined_static_stiffness=1.25 * settled * cube["static_stiffness_converged"],
+        prestressed_stiffness_converged=0.5 * settled * cube["prestressed_stiffness"],
+        prestressed_stiffness_mesh_error=0.5 * settled * cube["prestressed_stiffness"],
+        refined_residual=4e-9 * settled,
+        refined_negative_eigenvalues=0 * settled,
+        refined_element_size=2.5 * settled,
+    )
+
+
+def test_relaxing_again_is_told_as_ratios():
+    cube = relaxed_cube()
+    thin, thick = relaxed_rows(cube)
+    assert (thin.n, thick.n) == (3, 4)
+    assert thin.energy.median == pytest.approx(0.8)
+    assert thick.stress_free["radial"].highest == pytest.approx(1.25)
+    assert thick.prestressed["axial"].lowest == pytest.approx(0.5)
+    text = " ".join(relaxed_findings(cube))
+    assert "on a mesh of 2.5 mm, 7 of 8 realisations settled (largest residual 4.0e−9, 0" in text
+    assert "the axial stiffness by 1.2 stress-free and 0.50 pre-stressed" in text
+    assert "is 100 % of the axial value" in text
+
+
+def test_page_of_a_study_that_was_relaxed_again(tmp_path):
+    inputs = make_study(tmp_path, relaxed_cube(), figures=False)
+    page = write_report(inputs, tmp_path / "report.html").read_text("utf-8")
+    parse(page)
+    assert "Relaxed again on refined meshes" in page
+    assert "This study, pre-stressed, relaxed again" in words(first_screen(page))
+
+
+def test_study_that_relaxed_nothing_again_has_no_row():
+    cube = relaxed_cube()
+    empty = {name: cube[name] * np.nan for name in cube if name.startswith("refined_")}
+    assert relaxed_rows(cube.assign(empty)) == []
+    assert relaxed_findings(cube.assign(empty)) == []
+
+
+def test_equilibria_need_the_residual_and_no_negative_eigenvalue():
+    cube = synthetic_cube()
+    cube["equilibrium_residual"][0, 0, 0] = 3e-5
+    config = {"relaxation": {"residual_tolerance": 1e-6, "ramp_steps": 2000}}
+    found = assess_equilibrium(cube, config)
+    # 27 cells, of which 9 (500 um) have negative eigenvalues and one a large residual.
+    assert (found.settled, found.cells, found.unstable) == (17, 27, 9)
+    assert found.worst_residual == pytest.approx(3e-5)
+    assert [row.settled for row in found.thicknesses] == [8, 9, 0]
+    assert found.thicknesses[0].steps.median == pytest.approx(20_000)
+    assert found.thicknesses[2].newton_steps.highest == pytest.approx(12)
+    text = " ".join(equilibrium_findings(found))
+    assert "17 of 27 realisations reached the relative residual of 1e−6" in text
+    assert "9 realisations ended where the tangent has negative eigenvalues" in text
+
+
+def test_cube_without_step_counts_claims_none():
+    cube = synthetic_cube().drop_vars(["steps", "newton_steps", "negative_eigenvalues"])
+    found = assess_equilibrium(cube, {})
+    assert found.unstable is None
+    assert found.thicknesses[0].steps is None and found.thicknesses[0].newton_steps is None
+    assert "stable equilibrium" not in " ".join(equilibrium_findings(found))
 
 
 def test_flagged_cells_are_listed(study):
@@ -392,10 +551,8 @@ def test_costs_add_up(study):
 def test_health_shares_and_limits(study):
     inputs, _ = study
     with xr.open_dataset(inputs.cube_path) as cube:
-        health = assess(cube)
-    assert health.stabilisation_share[50.0].median == pytest.approx(0.1)
-    assert health.worst_residual == pytest.approx(1e-7)
-    assert health.unstable == 9
+        health, mesh = assess(cube), assess_mesh(cube)
+    assert mesh.stabilisation_share[50.0].median == pytest.approx(0.1)
     assert len(health.model_limits) == 3
     assert all(limit.overlength_percent > 90 for limit in health.model_limits)
 

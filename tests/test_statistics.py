@@ -149,18 +149,67 @@ def test_published_laws_reproduce_the_quoted_stiffness():
 
 
 def test_powerlaw_table_has_every_direction_and_source():
-    table = statistics.powerlaw_table(noisy_cube())
-    assert len(table) == 8
-    sources = {"simulation", "simulation refined", "published simulation", "published experiment"}
-    assert set(table["source"]) == sources
+    table = statistics.powerlaw_table(noisy_cube(relaxed_again=True))
+    published_sources = {"published simulation", "published experiment"}
+    assert set(table["source"]) == set(statistics.SIMULATED) | published_sources
+    assert len(table) == 2 * 6
     row = table.set_index(["direction", "source"]).loc[("radial", "published experiment")]
     assert (row["beta"], row["beta_se"]) == (-0.55, 0.04)
     simulated = table[table["source"] == "simulation"]
     assert (simulated["beta_se_clustered"] > 0).all()
 
 
+def test_a_source_without_values_has_no_law():
+    cube = noisy_cube()
+    assert "simulation pre-stressed refined" not in statistics.sources_in(cube)
+    unmeasured = cube["static_stiffness_converged"] * np.nan
+    old = cube.assign(static_stiffness_converged=unmeasured).drop_vars("prestressed_stiffness")
+    assert statistics.sources_in(old) == ["simulation"]
+    assert set(statistics.variability_table(old)["quantity"]) == {"static_stiffness"}
+
+
+@pytest.mark.parametrize(
+    ("source", "shift"), [("simulation mesh limit", 0.3), ("simulation pre-stressed", -0.2)]
+)
+def test_thickness_exponents_of_mesh_limit_and_pre_stress_are_recovered(source, shift):
+    law = statistics.simulated_law(make_cube(), "radial", source)
+    assert law.gamma == pytest.approx(LAW["radial"][2] + shift)
+    assert law.beta == pytest.approx(LAW["radial"][1])
+
+
+def test_negative_pre_stressed_values_are_counted_and_leave_the_law_alone():
+    cube = make_cube(failed=[(0, 0, 0)])
+    cube["prestressed_stiffness"][3, 4, :2, 0] = [-7.0, 0.0]
+    table = statistics.powerlaw_table(cube).set_index(["direction", "source"])
+    row = table.loc[("axial", "simulation pre-stressed")]
+    assert row["note"] == "2 of 119 values are not positive and do not enter"
+    assert (row["n"], row["beta"]) == (117, pytest.approx(LAW["axial"][1]))
+    assert table.loc[("radial", "simulation pre-stressed"), "note"] == ""
+    assert table.loc[("axial", "simulation"), "n"] == 119
+
+
+def test_scatter_of_pre_stressed_values_counts_those_below_zero():
+    cube = make_cube(thickness_um=(500.0,), reference_height_mm=(170.0, 250.0), seeds=3)
+    cube["prestressed_stiffness"][0, :, :, 0] = [[-1.0, 2.0, 5.0], [-4.0, -1.0, 2.0]]
+    table = statistics.variability_table(cube)
+    rows = table[(table["quantity"] == "prestressed_stiffness") & (table["direction"] == "axial")]
+    assert list(rows["n_not_positive"]) == [1, 2]
+    assert rows["cv"].iloc[0] == pytest.approx(1.5)
+    # A spread over a negative mean measures nothing.
+    assert np.isnan(rows["cv"].iloc[1])
+
+
+def test_regression_of_the_scatter_is_that_of_the_stress_free_stiffness():
+    cube = noisy_cube()
+    wild = cube.assign(prestressed_stiffness=cube["prestressed_stiffness"] ** 3)
+    pd.testing.assert_frame_equal(
+        statistics.variability_law_table(wild), statistics.variability_law_table(cube)
+    )
+
+
 def test_coefficient_of_variation_is_exact_where_it_is_prescribed():
     table = statistics.variability_table(noisy_cube())
+    assert len(table) == 3 * 2 * 20
     expected = 0.1 + 1e-3 * table["overlength_percent"]
     np.testing.assert_allclose(table["cv"], expected, rtol=1e-10)
     assert (table["cv_low"] < table["cv"]).all() and (table["cv"] < table["cv_high"]).all()
@@ -227,7 +276,7 @@ def test_write_tables_writes_readable_files_and_leaves_no_temporary(tmp_path):
     assert {p.name for p in (tmp_path / "tables").iterdir()} == {
         f"{name}.csv" for name in statistics.TABLES
     }
-    assert len(pd.read_csv(paths[0])) == 8
+    assert len(pd.read_csv(paths[0])) == 2 * 5
     first = [p.read_bytes() for p in paths]
     again = [p.read_bytes() for p in statistics.write_tables(cube_path, tmp_path / "tables")]
     assert first == again

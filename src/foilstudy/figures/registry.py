@@ -43,8 +43,9 @@ class FigureSpec:
 _STIFFNESS_CAPTION = (
     "{} stiffness of the stress-free crumpled shape, other ring motions held, against overlength; "
     "one panel per thickness. Dots with band: mean, smallest and largest of the realisations on "
-    "the mesh that was crumpled; open squares: mean of the same shapes on the refined mesh; "
-    "lines: this study's fit and the published fits; grey: the uncrumpled cylinder, an upper bound."
+    "the mesh that was crumpled; open squares with bar: mean of the same shapes at element size "
+    "zero (on the finest mesh where it is not extrapolated) and the stated mesh error; lines: this "
+    "study's fit and the published fits; grey: the uncrumpled cylinder, an upper bound."
 )
 
 FIGURES: dict[str, FigureSpec] = {
@@ -68,6 +69,25 @@ FIGURES: dict[str, FigureSpec] = {
         "stiffness",
         ("cube",),
         {"direction": "radial"},
+    ),
+    "prestressed": FigureSpec(
+        "Stiffness with the stress left in",
+        "Stiffness against overlength, one panel per direction and thickness; middle, smallest and "
+        "largest positive value of the realisations. Squares: stress-free shape, mesh limit; "
+        "circles: at the stressed equilibrium on the mesh that was crumpled; triangles: the same "
+        "after relaxing again on refined meshes, where the study did. Held rings allow values that "
+        "are not positive (≤ 0): their number stands at the bottom, by the mark of their series. "
+        "Line: published experiment (fit).",
+        "prestressed",
+        ("cube",),
+    ),
+    "mesh_error": FigureSpec(
+        "Stated mesh error of the stiffness",
+        "Estimated error of the stress-free stiffness of the same shape in the mesh limit, over "
+        "that stiffness, against overlength; one line per thickness: median of the realisations, "
+        "bar up to the largest. It says nothing about how the shape itself depends on the mesh.",
+        "mesh_error",
+        ("cube",),
     ),
     "stiffness_map": FigureSpec(
         "Stiffness over overlength and thickness",
@@ -127,8 +147,9 @@ FIGURES: dict[str, FigureSpec] = {
     "energy": FigureSpec(
         "Strain energy of the crumpled sheets",
         "Share of membrane, bending and stabilisation energy, mean of the realisations; above "
-        "each bar the strain energy. A large stabilisation share says that the mesh does not "
-        "resolve the ridges.",
+        "each bar the strain energy. With the one-point element a large stabilisation share says "
+        "that the mesh does not resolve the ridges; with the corner-sampled one it is the control "
+        "of the checkerboard alone.",
         "energy",
         ("cube",),
     ),

@@ -19,11 +19,11 @@ from foilstudy.figures.style import (
 from foilstudy.reference import published
 from foilstudy.statistics import simulated_law, stiffness_summary
 
-_MINE, _REFINED = ordered_colours(5)[1:4:2]
+_MINE, _LIMIT = ordered_colours(5)[1:4:2]
 _LEGEND = (
     "this study: mean, min to max",
     "this study: fit",
-    "same shapes, refined mesh",
+    "same shapes, mesh limit ± error",
     "uncrumpled cylinder (bound)",
     "published simulation (fit)",
     "published experiment (fit)",
@@ -97,15 +97,20 @@ def _panel(ax, rows) -> None:
         capsize=2,
         label="this study: mean, min to max",
     )
-    ax.plot(
+    limit, error = rows["mesh_limit_mean"].to_numpy(), rows["mesh_error_mean"].to_numpy()
+    ax.errorbar(
         x,
-        rows["refined_mean"],
-        "s",
+        limit,
+        # an error as large as the value would leave a logarithmic axis
+        yerr=[np.minimum(error, 0.9 * limit), error],
+        fmt="s",
+        color=_LIMIT,
         mfc="white",
-        mec=_REFINED,
         mew=1.4,
         ms=5.5,
-        label="same shapes, refined mesh",
+        elinewidth=1.4,
+        capsize=3.5,
+        label="same shapes, mesh limit ± error",
     )
 
 

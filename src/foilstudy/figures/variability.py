@@ -14,7 +14,7 @@ from foilstudy.figures.style import (
     styled,
     thickness_label,
 )
-from foilstudy.statistics import fit_variability, variability_table
+from foilstudy.statistics import fit_variability, plain_scatter, variability_table
 
 
 @styled
@@ -25,7 +25,7 @@ def draw(cube):
     ----------
     cube : xarray.Dataset
     """
-    table = variability_table(cube)
+    table = plain_scatter(variability_table(cube))
     directions = list(map(str, cube["direction"].values))
     thicknesses = cube["thickness"].to_numpy()
     figure = new_figure(PAGE_WIDTH, 4.2)

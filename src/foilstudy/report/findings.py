@@ -1,7 +1,6 @@
 """What the tables say, in sentences: every number here is read from them, none is assumed."""
 
 import math
-from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
@@ -9,7 +8,7 @@ import xarray as xr
 
 from foilstudy.outcome import STATUSES
 from foilstudy.reference import Published
-from foilstudy.report.health import Health, Spread
+from foilstudy.report.health import Health
 from foilstudy.report.laws import Exponent
 from foilstudy.report.numerals import (
     fixed,
@@ -21,9 +20,9 @@ from foilstudy.report.numerals import (
     plural,
     signed,
     stiffness,
-    times,
 )
-from foilstudy.statistics import fit_variability
+from foilstudy.report.spread import Spread
+from foilstudy.statistics import fit_variability, plain_scatter
 
 
 def stiffness_findings(summary: pd.DataFrame) -> list[str]:
@@ -88,32 +87,6 @@ def _axial_below_radial(summary: pd.DataFrame) -> list[str]:
     ]
 
 
-def prestress_findings(cube: xr.Dataset) -> list[str]:
-    """Say what the stress that crumpling leaves does to the stiffness.
-
-    Parameters
-    ----------
-    cube
-        The study's result cube.
-    """
-    if "prestressed_stiffness" not in cube:
-        return []
-    ratio = cube["prestressed_stiffness"] / cube["static_stiffness"]
-    spreads = {str(d): Spread.of(ratio.sel(direction=d)) for d in cube["direction"].values}
-    parts = [
-        f"{number_range(spread.lowest, spread.highest)} times in the {direction} "
-        f"direction (median {number(spread.median, 2)})"
-        for direction, spread in spreads.items()
-        if spread
-    ]
-    if not parts:
-        return []
-    return [
-        "All stiffnesses here belong to the stress-free crumpled shape, as in the published work; "
-        f"with the stress left in, the stiffness is {' and '.join(parts)} that value."
-    ]
-
-
 def variability_findings(variability: pd.DataFrame) -> list[str]:
     """Say how much the stiffness scatters over the realisations, and whether it has a trend.
 
@@ -123,7 +96,7 @@ def variability_findings(variability: pd.DataFrame) -> list[str]:
         Table ``variability.csv``.
     """
     sentences, medians = [], {}
-    for direction, cells in _measured(variability, "cv"):
+    for direction, cells in _measured(plain_scatter(variability), "cv"):
         spread = Spread.of(cells["cv"])
         medians[direction] = spread.median
         fit = fit_variability(variability, direction)
@@ -259,27 +232,6 @@ def health_sentence(health: Health) -> str:
         if health.counts[status]
     ]
     return f"{text}; {', '.join(others)}." if others else f"{text}."
-
-
-def mesh_sentence(health: Health, refinements: int, directions: Sequence[str]) -> str:
-    """Say by how much the refined mesh changes the stiffness of the same shapes."""
-    parts = []
-    for direction in directions:
-        change = health.mesh_change_overall(direction)
-        if change is None:
-            continue
-        if change.highest <= 0:
-            extent = f"{percent_range(-change.highest, -change.lowest)} lower"
-        elif change.lowest >= 0:
-            extent = f"{percent_range(change.lowest, change.highest)} higher"
-        else:
-            extent = f"{percent(-change.lowest)} lower to {percent(change.highest)} higher"
-        parts.append(f"the {direction} stiffness is {extent}")
-    if not parts:
-        return "The mesh error of the stiffness was not measured."
-    text = f"On the {times(refinements)} refined mesh {' and '.join(parts)} for the same shapes"
-    thickness = health.most_mesh_dependent_thickness_um
-    return f"{text}, most at {nominal(thickness)} µm." if thickness else f"{text}."
 
 
 def _measured(table: pd.DataFrame, column: str):

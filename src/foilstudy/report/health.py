@@ -1,4 +1,4 @@
-"""Whether the study can be trusted: verdicts, errors and costs read from the cube."""
+"""Whether the study can be trusted: verdicts, limits of the model and costs."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -8,31 +8,15 @@ import pandas as pd
 import xarray as xr
 
 from foilstudy.outcome import STATUSES
+from foilstudy.report.spread import Spread
 
 _CELL = ("thickness", "overlength", "seed")
 _STAGES = {
     "seconds_crumple": "crumple",
     "seconds_static": "static stiffness",
     "seconds_dynamic": "dynamic stiffness",
+    "seconds_refined": "relaxing again",
 }
-
-
-@dataclass(frozen=True)
-class Spread:
-    """Smallest, middle and largest of a set of values."""
-
-    lowest: float
-    median: float
-    highest: float
-
-    @classmethod
-    def of(cls, values) -> "Spread | None":
-        """Summarise the finite ``values``; None when there is none."""
-        finite = np.asarray(values, dtype=float).ravel()
-        finite = finite[np.isfinite(finite)]
-        if finite.size == 0:
-            return None
-        return cls(float(finite.min()), float(np.median(finite)), float(finite.max()))
 
 
 @dataclass(frozen=True)
@@ -70,7 +54,7 @@ class StageCost:
 
 @dataclass(frozen=True)
 class Health:
-    """Verdicts, errors and costs of a study.
+    """Verdicts, limits and costs of a study.
 
     Attributes
     ----------
@@ -78,17 +62,8 @@ class Health:
         Realisations by status, in the order of `STATUSES`.
     flagged
         Every realisation that is not converged.
-    worst_residual
-        Largest relative equilibrium residual among the cells that hold numbers; None without any.
-    unstable
-        Realisations whose tangent at the stressed equilibrium has a negative eigenvalue; None
-        when the cube does not say.
-    stabilisation_share
-        By thickness [um]: stabilisation energy over the whole internal energy.
     model_limits
         One entry per configuration that left the model anywhere.
-    mesh_change
-        By direction, then thickness [um]: refined over crumpled-mesh stiffness, minus one.
     costs
         Stages that were timed.
     peak_memory_mb
@@ -100,12 +75,8 @@ class Health:
 
     counts: dict[str, int]
     flagged: tuple[FlaggedCell, ...]
-    worst_residual: float | None
-    unstable: int | None
-    stabilisation_share: dict[float, Spread]
     model_limits: tuple[ModelLimit, ...]
     configurations: int
-    mesh_change: dict[str, dict[float, Spread]]
     costs: tuple[StageCost, ...]
     peak_memory_mb: float | None
     jobs: tuple[dict, ...]
@@ -115,23 +86,9 @@ class Health:
         """Number of realisations in the sweep."""
         return sum(self.counts.values())
 
-    def mesh_change_overall(self, direction: str) -> Spread | None:
-        """Range of `mesh_change` over all thicknesses."""
-        spreads = self.mesh_change.get(direction, {}).values()
-        return Spread.of([v for s in spreads for v in (s.lowest, s.highest)])
-
-    @property
-    def most_mesh_dependent_thickness_um(self) -> float | None:
-        """Thickness with the largest median `mesh_change`; None with less than two to compare."""
-        medians: dict[float, float] = {}
-        for spreads in self.mesh_change.values():
-            for thickness, spread in spreads.items():
-                medians[thickness] = max(medians.get(thickness, 0.0), abs(spread.median))
-        return max(medians, key=medians.get) if len(medians) > 1 else None
-
 
 def assess(cube: xr.Dataset, benchmarks: Path | None = None) -> Health:
-    """Read the verdicts, errors and costs of a study from its cube.
+    """Read the verdicts, limits and costs of a study from its cube.
 
     Parameters
     ----------
@@ -144,18 +101,12 @@ def assess(cube: xr.Dataset, benchmarks: Path | None = None) -> Health:
     names, numbers = np.unique(status.values, return_counts=True)
     found = dict(zip(names.tolist(), numbers.tolist(), strict=True))
     counts = {name: found.pop(name, 0) for name in STATUSES} | found
-    residual = Spread.of(_values(cube, "equilibrium_residual"))
     memory = Spread.of(_values(cube, "peak_memory"))
-    eigenvalues = _values(cube, "negative_eigenvalues")
     return Health(
         counts=counts,
         flagged=_flagged(cube, status),
-        worst_residual=residual.highest if residual else None,
-        unstable=int((eigenvalues > 0).sum()) if np.isfinite(eigenvalues).any() else None,
-        stabilisation_share=_stabilisation_share(cube),
         model_limits=_model_limits(cube),
         configurations=cube.sizes["thickness"] * cube.sizes["overlength"],
-        mesh_change=_mesh_change(cube),
         costs=_costs(cube),
         peak_memory_mb=memory.highest if memory else None,
         jobs=_jobs(benchmarks),
@@ -185,17 +136,6 @@ def _flagged(cube: xr.Dataset, status: xr.DataArray) -> tuple[FlaggedCell, ...]:
     return tuple(cells)
 
 
-def _stabilisation_share(cube: xr.Dataset) -> dict[float, Spread]:
-    internal = cube["membrane_energy"] + cube["bending_energy"] + cube["stabilisation_energy"]
-    share = cube["stabilisation_energy"] / internal
-    return _by_thickness(share)
-
-
-def _by_thickness(values: xr.DataArray) -> dict[float, Spread]:
-    spreads = {float(t): Spread.of(values.sel(thickness=t)) for t in values["thickness"].values}
-    return {t: spread for t, spread in spreads.items() if spread is not None}
-
-
 def _model_limits(cube: xr.Dataset) -> tuple[ModelLimit, ...]:
     limits = []
     for t in cube["thickness"].values:
@@ -210,18 +150,6 @@ def _model_limits(cube: xr.Dataset) -> tuple[ModelLimit, ...]:
             if any(s and s.highest > 0 for s in (limit.beyond_yield, limit.self_crossing)):
                 limits.append(limit)
     return tuple(limits)
-
-
-def _mesh_change(cube: xr.Dataset) -> dict[str, dict[float, Spread]]:
-    if "static_stiffness_converged" not in cube:
-        return {}
-    change = cube["static_stiffness_converged"] / cube["static_stiffness"] - 1.0
-    # Without a refinement there is no error estimate, and both stiffnesses are the same one.
-    change = change.where(np.isfinite(cube["static_stiffness_mesh_error"]))
-    by_direction = {
-        str(d): _by_thickness(change.sel(direction=d)) for d in cube["direction"].values
-    }
-    return {d: spreads for d, spreads in by_direction.items() if spreads}
 
 
 def _costs(cube: xr.Dataset) -> tuple[StageCost, ...]:

@@ -11,7 +11,9 @@ from foilstudy.statistics.powerlaw import NORMAL_95
 
 SOURCES = {
     "simulation": "This study",
-    "simulation refined": "This study, refined mesh",
+    "simulation mesh limit": "This study, mesh limit",
+    "simulation pre-stressed": "This study, pre-stressed",
+    "simulation pre-stressed refined": "This study, pre-stressed, relaxed again",
     "published simulation": "Published simulation",
     "published experiment": "Published experiment",
 }
@@ -67,6 +69,7 @@ class Law:
     gamma: Exponent
     r2: float
     n: float
+    residual_std: float
     note: str
     differences: str = ""
 
@@ -101,6 +104,10 @@ class DirectionLaws:
         """This study's law on the crumpled mesh."""
         return next(law for law in self.laws if law.source == "simulation")
 
+    def law(self, source: str) -> Law | None:
+        """The law of one of `SOURCES`; None where the study has none."""
+        return next((law for law in self.laws if law.source == source), None)
+
 
 def read_laws(powerlaw: pd.DataFrame, summary: pd.DataFrame) -> tuple[DirectionLaws, ...]:
     """Read the laws of each direction and put their differences into words.
@@ -130,13 +137,18 @@ def _law(source: str, row: pd.Series) -> Law:
         for name in ("alpha", "beta", "gamma")
     }
     note = row["note"] if isinstance(row["note"], str) else ""
-    return Law(source, SOURCES[source], **coefficients, r2=row["r2"], n=row["n"], note=note)
+    numbers = {name: float(row[name]) for name in ("r2", "n", "residual_std")}
+    return Law(source, SOURCES[source], **coefficients, **numbers, note=note)
 
 
 def _with_differences(ours: Law, other: Law, cells: pd.DataFrame) -> Law:
-    """Say how the other law differs from ours, and by how much at the middle of the sweep."""
+    """Say how the other law differs from ours, and by how much at the middle of the sweep.
+
+    What a law of this study leaves out stands there, too.
+    """
+    notes = [other.note] if other.note and not other.source.startswith("published") else []
     if not (ours.known and other.known):
-        return other
+        return replace(other, differences="; ".join(notes))
     words = [
         text
         for name in ("beta", "gamma")
@@ -146,7 +158,7 @@ def _with_differences(ours: Law, other: Law, cells: pd.DataFrame) -> Law:
     ratio = other.stiffness(*middle) / ours.stiffness(*middle)
     level = "equally" if fixed(ratio, 1) == "1.0" else f"{number(ratio, 2)} times as"
     words.append(f"{level} stiff mid-sweep")
-    return replace(other, differences="; ".join(words))
+    return replace(other, differences="; ".join(words + notes))
 
 
 def middle_of_sweep(summary: pd.DataFrame) -> str:

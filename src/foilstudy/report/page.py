@@ -16,7 +16,16 @@ from foilstudy.figures import FIGURES
 from foilstudy.figures.registry import PNG_DPI
 from foilstudy.files import written_whole
 from foilstudy.reference import published
-from foilstudy.report import findings, laws, numerals, viewer
+from foilstudy.report import (
+    equilibrium,
+    exponents,
+    findings,
+    laws,
+    mesh,
+    numerals,
+    prestress,
+    viewer,
+)
 from foilstudy.report.health import assess
 
 TEMPLATES = Path(__file__).parent / "templates"
@@ -25,10 +34,12 @@ SECTIONS = {
     "stiffness": ("stiffness_axial", "stiffness_radial"),
     "shapes": ("morphology", "seeds"),
     "static": ("stiffness_map", "fit_quality"),
+    "prestress": ("prestressed",),
     "variability": ("variability",),
     "dynamic": ("dynamic_stiffness",),
     "eigenfrequency": ("eigenfrequency_law",),
-    "health": ("energy", "history"),
+    "mesh": ("mesh_error", "energy"),
+    "health": ("history",),
 }
 """Where each figure stands; one not named here follows the last of the results."""
 
@@ -131,23 +142,35 @@ def _content(inputs: ReportInputs, cube: xr.Dataset, folder: Path) -> dict:
     )
     config = yaml.safe_load(cube.attrs.get("config", "")) or {}
     health = assess(cube, inputs.benchmarks_dir)
-    directions = [str(d) for d in cube["direction"].values]
+    settling = equilibrium.assess_equilibrium(cube, config)
+    mesh_errors = mesh.assess_mesh(cube)
+    read_laws = laws.read_laws(powerlaw, summary)
     shapes = viewer.viewer_data(viewer.choose_shapes(inputs.crumple_paths))
     script = (TEMPLATES / "viewer.js").read_text("utf-8")
     return {
         "title": config.get("report", {}).get("title", "Crumpled foil"),
         "study": cube.attrs.get("study", ""),
         "scope": _scope(cube, config),
-        "laws": laws.read_laws(powerlaw, summary),
+        "laws": read_laws,
+        "exponent_words": exponents.exponent_findings(read_laws),
+        "locking_words": mesh.PUBLISHED_LOCKING,
         "middle": laws.middle_of_sweep(summary),
         "stiffness_words": findings.stiffness_findings(summary),
-        "prestress_words": findings.prestress_findings(cube),
+        "prestress_words": prestress.prestress_findings(cube, variability, read_laws),
+        "prestress_rows": prestress.prestress_rows(cube, variability),
+        "relaxed_words": prestress.relaxed_findings(cube),
+        "relaxed_rows": prestress.relaxed_rows(cube),
         "variability_words": findings.variability_findings(variability),
         "dynamic_words": findings.dynamic_findings(cube),
         "eigenfrequency_words": findings.eigenfrequency_findings(eigenfrequency, cube),
         "bend_words": laws.bend_sentence(powerlaw),
         "fit_words": laws.fit_findings(powerlaw),
-        "mesh_words": findings.mesh_sentence(health, _refinements(config), directions),
+        "mesh": mesh_errors,
+        "mesh_words": mesh.mesh_sentence(mesh_errors, config),
+        "stated_error_words": mesh.stated_error_sentence(mesh_errors),
+        "share_words": mesh.share_sentence(config),
+        "equilibrium": settling,
+        "equilibrium_words": equilibrium.equilibrium_findings(settling),
         "shape_words": findings.shape_findings(cube, published()),
         "health": health,
         "health_words": findings.health_sentence(health),
@@ -190,12 +213,9 @@ def _scope(cube: xr.Dataset, config: dict) -> list[str]:
             f"ν = {numerals.nominal(material['poisson_ratio'])}"
         )
     if "mesh" in config:
-        phrases.append(f"elements of {numerals.nominal(config['mesh']['element_size_mm'])} mm")
+        size = numerals.nominal(config["mesh"]["element_size_mm"])
+        phrases.append(f"{mesh.element_kind(config)} elements of {size} mm")
     return phrases
-
-
-def _refinements(config: dict) -> int:
-    return config.get("stiffness", {}).get("refinements", 1)
 
 
 def _figures(folder: Path) -> dict[str, list[Figure]]:

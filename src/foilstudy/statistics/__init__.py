@@ -1,7 +1,14 @@
 """Laws fitted to the cube, their uncertainty, and their comparison with published values."""
 
 from foilstudy.statistics.eigenfrequency import eigenfrequency_table
-from foilstudy.statistics.powerlaw import PowerLaw, fit_power_law, powerlaw_table, simulated_law
+from foilstudy.statistics.powerlaw import (
+    SIMULATED,
+    PowerLaw,
+    fit_power_law,
+    powerlaw_table,
+    simulated_law,
+    sources_in,
+)
 from foilstudy.statistics.regression import LinearFit, fit_linear
 from foilstudy.statistics.summary import stiffness_summary
 from foilstudy.statistics.tables import TABLES, write_tables
@@ -9,11 +16,13 @@ from foilstudy.statistics.variability import (
     coefficient_of_variation,
     coefficient_of_variation_interval,
     fit_variability,
+    plain_scatter,
     variability_law_table,
     variability_table,
 )
 
 __all__ = [
+    "SIMULATED",
     "TABLES",
     "LinearFit",
     "PowerLaw",
@@ -23,8 +32,10 @@ __all__ = [
     "fit_linear",
     "fit_power_law",
     "fit_variability",
+    "plain_scatter",
     "powerlaw_table",
     "simulated_law",
+    "sources_in",
     "stiffness_summary",
     "variability_law_table",
     "variability_table",

@@ -45,6 +45,26 @@ def usable(values):
     return values.where(np.isfinite(values) & (values > 0))
 
 
+def measured(cube, name: str, **selection):
+    """Return variable `name`, of either sign, where the realisation left a shape.
+
+    Parameters
+    ----------
+    cube : xarray.Dataset
+    name
+        A quantity with dimensions thickness, overlength, seed and maybe others.
+    selection
+        Passed to ``sel``, for example ``direction="axial"``.
+
+    Returns
+    -------
+    xarray.DataArray
+        NaN where the realisation diverged or failed, or the value is not finite.
+    """
+    values = cube[name]
+    return values.where(np.isfinite(values) & cube["status"].isin(USABLE)).sel(**selection)
+
+
 def good(cube, name: str, **selection):
     """Return variable `name` with every cell that must not enter the statistics set to NaN.
 
@@ -61,8 +81,23 @@ def good(cube, name: str, **selection):
     xarray.DataArray
         NaN where the realisation diverged or failed, or the value is not finite and positive.
     """
-    values = cube[name].sel(**selection)
-    return usable(values.where(cube["status"].isin(USABLE)))
+    return usable(measured(cube, name, **selection))
+
+
+def relative_mesh_error(cube):
+    """Return the stated mesh error of the stress-free stiffness over its mesh limit.
+
+    Parameters
+    ----------
+    cube : xarray.Dataset
+
+    Returns
+    -------
+    xarray.DataArray
+        Share of one, with dimensions thickness, overlength, seed, direction; NaN where it was not
+        measured.
+    """
+    return measured(cube, "static_stiffness_mesh_error") / good(cube, "static_stiffness_converged")
 
 
 def samples(cube, name: str, **selection) -> Samples:

@@ -7,12 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from foilstudy.reference import PublishedLaw, published
-from foilstudy.statistics.cells import Samples, samples
+from foilstudy.statistics.cells import Samples, measured, samples
 from foilstudy.statistics.regression import LinearFit, fit_linear
 
 SIMULATED = {
     "simulation": "static_stiffness",
-    "simulation refined": "static_stiffness_converged",
+    "simulation mesh limit": "static_stiffness_converged",
+    "simulation pre-stressed": "prestressed_stiffness",
+    "simulation pre-stressed refined": "prestressed_stiffness_converged",
 }
 """Source of a simulated power law and the cube variable it is fitted to."""
 
@@ -86,17 +88,29 @@ def simulated_law(cube, direction: str, source: str = "simulation") -> PowerLaw:
     direction
         ``axial`` or ``radial``.
     source
-        ``simulation`` (the crumpled mesh) or ``simulation refined`` (the same shapes refined).
+        A key of `SIMULATED`: ``simulation`` is the stress-free stiffness on the crumpled mesh,
+        ``mesh limit`` that of the same shapes at element size zero, ``pre-stressed`` has the
+        stress left in, and ``refined`` was relaxed again on refined meshes.
     """
     return fit_power_law(samples(cube, SIMULATED[source], direction=direction))
+
+
+def sources_in(cube) -> list[str]:
+    """Sources of `SIMULATED` that the cube has values for, and ``simulation`` always."""
+    return [
+        source
+        for source, name in SIMULATED.items()
+        if source == "simulation" or (name in cube and np.isfinite(cube[name]).any())
+    ]
 
 
 def powerlaw_table(cube):
     """Return coefficients, uncertainty and residual checks per direction and source.
 
     The standard errors ``*_se`` assume independent residuals; ``*_se_clustered`` allow for the
-    residuals of one configuration to be alike, which ``lack_of_fit_p`` tests. Published rows
-    carry the published standard deviation, with a normal 95 % interval.
+    residuals of one configuration to be alike, which ``lack_of_fit_p`` tests. Only positive
+    values have a logarithm: ``note`` says how many others were left out. Published rows carry the
+    published standard deviation, with a normal 95 % interval.
 
     Parameters
     ----------
@@ -110,16 +124,21 @@ def powerlaw_table(cube):
 
     rows = []
     for direction in map(str, cube["direction"].values):
-        for source in SIMULATED:
-            rows.append(
-                {"direction": direction, "source": source}
-                | _simulated_row(simulated_law(cube, direction, source))
-            )
+        for source in sources_in(cube):
+            row = _simulated_row(simulated_law(cube, direction, source))
+            left_out = _left_out(measured(cube, SIMULATED[source], direction=direction))
+            row["note"] = "; ".join(filter(None, [row["note"], left_out]))
+            rows.append({"direction": direction, "source": source} | row)
         for source, law in published().power_laws[direction].items():
             rows.append(
                 {"direction": direction, "source": f"published {source}"} | _published_row(law)
             )
     return pd.DataFrame(rows)
+
+
+def _left_out(values) -> str:
+    n, left_out = int(np.isfinite(values).sum()), int((values <= 0).sum())
+    return f"{left_out} of {n} values are not positive and do not enter" if left_out else ""
 
 
 def _simulated_row(law: PowerLaw) -> dict:

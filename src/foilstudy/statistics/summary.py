@@ -22,9 +22,10 @@ def stiffness_summary(cube):
     -------
     pandas.DataFrame
         Stiffnesses in N/m. ``n`` realisations enter, of which ``n_not_converged`` stopped at
-        the step limit; ``n_failed`` diverged or failed and do not enter. ``refined_mean`` and
-        ``mesh_error_mean`` belong to the refined mesh, ``cylinder_bound`` to the uncrumpled
-        cylinder. A ratio is our mean over the published fit.
+        the step limit; ``n_failed`` diverged or failed and do not enter. ``mesh_limit_mean`` is
+        that of the same shapes at element size zero and ``mesh_error_mean`` its estimated error;
+        ``cylinder_bound`` belongs to the uncrumpled cylinder. A ratio is our mean over the
+        published fit.
     """
     import pandas as pd
 
@@ -34,7 +35,7 @@ def stiffness_summary(cube):
     rows = []
     for direction in map(str, cube["direction"].values):
         laws = published().power_laws[direction]
-        static, free, refined = (
+        static, free, limit = (
             _by_cell(good(cube, name, direction=direction)) for name in _STIFFNESSES
         )
         mesh_error = _by_cell(cube["static_stiffness_mesh_error"].sel(direction=direction))
@@ -63,7 +64,7 @@ def stiffness_summary(cube):
                     "min": values.min() if values.size else np.nan,
                     "max": values.max() if values.size else np.nan,
                     "free_mean": _mean(free[i, j]),
-                    "refined_mean": _mean(refined[i, j]),
+                    "mesh_limit_mean": _mean(limit[i, j]),
                     "mesh_error_mean": _mean(mesh_error[i, j]),
                     "cylinder_bound": bound[i, j],
                     "published_simulation": simulation,

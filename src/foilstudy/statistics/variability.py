@@ -4,15 +4,24 @@ from __future__ import annotations
 
 import numpy as np
 
-from foilstudy.statistics.cells import good
+from foilstudy.statistics.cells import measured
+from foilstudy.statistics.powerlaw import SIMULATED, sources_in
 from foilstudy.statistics.regression import CONFIDENCE, LinearFit, fit_linear
+
+PLAIN = SIMULATED["simulation"]
+"""The stiffness whose scatter the figure and the regression show."""
 
 
 def coefficient_of_variation(values) -> float:
-    """Standard deviation (n - 1 in the denominator) over mean; NaN for fewer than two values."""
+    """Standard deviation (n - 1 in the denominator) over mean.
+
+    NaN for fewer than two values, and for a mean that is not positive, which measures nothing.
+    """
     values = np.asarray(values, float)
     values = values[np.isfinite(values)]
-    return float(values.std(ddof=1) / values.mean()) if values.size > 1 else np.nan
+    if values.size < 2 or not values.mean() > 0:
+        return np.nan
+    return float(values.std(ddof=1) / values.mean())
 
 
 def coefficient_of_variation_interval(cv: float, n: int) -> tuple[float, float]:
@@ -48,7 +57,7 @@ def coefficient_of_variation_interval(cv: float, n: int) -> tuple[float, float]:
 
 
 def variability_table(cube):
-    """Return the coefficient of variation of every configuration and direction.
+    """Return the coefficient of variation of every quantity, configuration and direction.
 
     Parameters
     ----------
@@ -57,38 +66,46 @@ def variability_table(cube):
     Returns
     -------
     pandas.DataFrame
-        Columns thickness_um, overlength_percent, direction, n, mean, std (N/m), cv, cv_low,
-        cv_high (95 %, see `coefficient_of_variation_interval`).
+        Columns quantity (the stiffness in the cube), thickness_um, overlength_percent, direction,
+        n, n_not_positive, mean, std (N/m, of all values, also those not positive), cv, cv_low,
+        cv_high (95 %, see `coefficient_of_variation_interval`). Quantities as in `sources_in`.
     """
     import pandas as pd
 
     rows = []
-    for direction in map(str, cube["direction"].values):
-        stiffness = good(cube, "static_stiffness", direction=direction)
-        stiffness = stiffness.transpose("thickness", "overlength", "seed").to_numpy()
-        for i, thickness in enumerate(cube["thickness"].to_numpy()):
-            for j, overlength in enumerate(cube["overlength"].to_numpy()):
-                values = stiffness[i, j][np.isfinite(stiffness[i, j])]
-                cv = coefficient_of_variation(values)
-                low, high = coefficient_of_variation_interval(cv, values.size)
-                rows.append(
-                    {
-                        "thickness_um": float(thickness),
-                        "overlength_percent": float(overlength),
-                        "direction": direction,
-                        "n": values.size,
-                        "mean": values.mean() if values.size else np.nan,
-                        "std": values.std(ddof=1) if values.size > 1 else np.nan,
-                        "cv": cv,
-                        "cv_low": low,
-                        "cv_high": high,
-                    }
-                )
+    for quantity in (SIMULATED[source] for source in sources_in(cube)):
+        for direction in map(str, cube["direction"].values):
+            stiffness = measured(cube, quantity, direction=direction)
+            stiffness = stiffness.transpose("thickness", "overlength", "seed").to_numpy()
+            for i, j in np.ndindex(stiffness.shape[:2]):
+                cell = {
+                    "quantity": quantity,
+                    "thickness_um": float(cube["thickness"][i]),
+                    "overlength_percent": float(cube["overlength"][j]),
+                    "direction": direction,
+                }
+                rows.append(cell | _scatter(stiffness[i, j][np.isfinite(stiffness[i, j])]))
     return pd.DataFrame(rows)
+
+
+def _scatter(values: np.ndarray) -> dict[str, float]:
+    cv = coefficient_of_variation(values)
+    low, high = coefficient_of_variation_interval(cv, values.size)
+    return {
+        "n": values.size,
+        "n_not_positive": int((values <= 0).sum()),
+        "mean": values.mean() if values.size else np.nan,
+        "std": values.std(ddof=1) if values.size > 1 else np.nan,
+        "cv": cv,
+        "cv_low": low,
+        "cv_high": high,
+    }
 
 
 def fit_variability(table, direction: str) -> LinearFit:
     """Fit ``cv = constant + slope * overlength/%`` over the configurations of one direction.
+
+    Of the quantities in the table it takes the stress-free stiffness on the crumpled mesh.
 
     Parameters
     ----------
@@ -102,12 +119,20 @@ def fit_variability(table, direction: str) -> LinearFit:
     LinearFit
         Its only regressor is called ``overlength``.
     """
+    table = plain_scatter(table)
     rows = table[(table["direction"] == direction) & table["cv"].notna()]
     return fit_linear(rows["cv"].to_numpy(), {"overlength": rows["overlength_percent"].to_numpy()})
 
 
+def plain_scatter(table):
+    """Return the rows of the stress-free stiffness on the crumpled mesh."""
+    return table[table["quantity"] == PLAIN]
+
+
 def variability_law_table(cube):
     """Return the regression of the coefficient of variation on the overlength per direction.
+
+    It is that of the stress-free stiffness on the crumpled mesh.
 
     Parameters
     ----------
@@ -121,7 +146,7 @@ def variability_law_table(cube):
     """
     import pandas as pd
 
-    table = variability_table(cube)
+    table = plain_scatter(variability_table(cube))
     rows = []
     for direction in map(str, cube["direction"].values):
         fit = fit_variability(table, direction)
