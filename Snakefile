@@ -26,6 +26,7 @@ include: "workflow/rules/realisations.smk"
 include: "workflow/rules/results.smk"
 include: "workflow/rules/verify.smk"
 include: "workflow/rules/elements.smk"
+include: "workflow/rules/convergence.smk"
 
 
 localrules:

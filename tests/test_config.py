@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+import yaml
 from jsonschema import Draft202012Validator
 
 from foilstudy.config import (
@@ -23,6 +24,7 @@ from foilstudy.config import (
 from foilstudy.config._yaml import read_yaml
 from foilstudy.config.docs import reference_page, schema_text
 from foilstudy.materials import MATERIALS
+from foilstudy.mesh_size import expected_energy_error
 
 CONFIG_FOLDER = Path(__file__).parents[1] / "config"
 CONFIG_FILES = sorted(CONFIG_FOLDER.glob("*.yaml"))
@@ -411,6 +413,58 @@ def test_element_size_given_in_metres():
     text = problem_of(study(mesh={"element_size_mm": 0.005}))
     assert "elements on the longest cylinder" in text
     assert "check that the value is in mm" in text
+
+
+def test_smooth_imperfection_that_the_mesh_cannot_follow():
+    imperfection = {"kind": "smoothed", "correlation_length_mm": 3}
+    text = problem_of(study(imperfection=imperfection))
+    assert text.startswith("imperfection.correlation_length_mm is 3 mm")
+    remedy = float(text.partition("; use ")[2].split(" ")[0])
+    load_config(study(imperfection=imperfection | {"correlation_length_mm": 1.01 * remedy}))
+
+
+def test_auto_mesh_is_finer_for_thinner_foils_and_smaller_errors():
+    sweep = {"thickness_um": [130, 500], "realisations": 1}
+    sizes = {}
+    for error in (10, 20):
+        mesh = {"element_size_mm": "auto", "energy_error_percent": error}
+        config = load_config(study(sweep=sweep, mesh=mesh))
+        assert config.mesh.element_size_mm == "auto"
+        for cell in config.cells():
+            task = config.crumple_task(cell)
+            sizes[error, cell.thickness_um] = task.mesh.element_size_mm
+            assert task.mesh.energy_error_percent is None
+            radius = config.sheet.diameter_mm / 2 * 1e-3
+            expected = expected_energy_error(
+                task.mesh.element_size_mm * 1e-3, radius, cell.thickness_um * 1e-6
+            )
+            assert expected <= error / 100
+    assert sizes[10, 130] < sizes[20, 130] < sizes[20, 500]
+    assert sizes[10, 130] < sizes[10, 500] < sizes[20, 500]
+
+
+def test_auto_mesh_has_a_default_error_and_survives_a_round_trip():
+    config = load_config(study(mesh={"element_size_mm": "auto"}))
+    assert config.mesh.energy_error_percent == 10
+    assert load_config(yaml.safe_load(config.to_yaml())) == config
+    assert StudyConfig.model_validate_json(config.model_dump_json()) == config
+
+
+def test_auto_mesh_that_no_machine_can_hold():
+    sweep = {"thickness_um": [1]}
+    text = problem_of(study(sweep=sweep, mesh={"element_size_mm": "auto"}))
+    assert "(auto, 1 um, 10 % of energy error)" in text
+    assert "allow a larger mesh.energy_error_percent" in text
+
+
+def test_energy_error_beside_a_given_size():
+    text = problem_of(study(mesh={"element_size_mm": 5, "energy_error_percent": 5}))
+    assert text.startswith("mesh.energy_error_percent is given")
+
+
+def test_auto_mesh_for_an_element_whose_error_is_unknown():
+    text = problem_of(study(mesh={"element_size_mm": "auto", "element": "one_point"}))
+    assert "the mesh error of the one_point element is not known" in text
 
 
 @pytest.mark.parametrize("name", ["a/b", "..", "", "my foil", "-x", "é", "a\n", "x" * 65])

@@ -23,7 +23,7 @@ def deviation(kind, stream, patch=PATCH, perfect=PERFECT):
 
 
 def independent_smoothed(fields):
-    """Independent values in smoothed fields: one per integral of the squared correlation."""
+    """Independent values in smooth surfaces: one per integral of the squared correlation."""
     area = fields.shape[2] * PATCH.size_along * np.pi * DIAMETER
     return fields.shape[0] * fields.shape[1] * area / (2 * np.pi * LENGTH**2)
 
@@ -79,15 +79,55 @@ def test_the_stream_does_not_depend_on_the_sweep():
     assert imperfection_of(study.crumple_task(cell)) == imperfection_of(task(seed=1))
 
 
-@pytest.mark.parametrize("kind", ["gaussian", "smoothed"])
-def test_variance_of_every_coordinate_is_the_amplitude_squared(kind):
-    fields = np.array([deviation(kind, (seed, 0, 0))[:, FREE] for seed in range(300)])
+def test_variance_of_every_coordinate_is_the_amplitude_squared():
+    fields = np.array([deviation("gaussian", (seed, 0, 0))[:, FREE] for seed in range(300)])
     # one point per component is independent of the other realisations, whatever the correlation
     variance = (fields**2).mean(axis=0) / AMPLITUDE**2
     standard_error = np.sqrt(2 / len(fields))
     assert np.abs(variance - 1).max() < 5 * standard_error
-    independent = fields.size if kind == "gaussian" else independent_smoothed(fields)
-    assert abs(variance.mean() - 1) < 5 * np.sqrt(2 / independent)
+    assert abs(variance.mean() - 1) < 5 * np.sqrt(2 / fields.size)
+
+
+def surface(control_points):
+    """Points of the surface at the control columns and between the control rows."""
+    around = (np.roll(control_points, 1, axis=2) + np.roll(control_points, -1, axis=2)) / 8
+    around += 0.75 * control_points
+    return 0.5 * (around[:, :-1] + around[:, 1:])
+
+
+def window(patch=PATCH):
+    """How a smooth field falls to zero at the rings."""
+    z = patch.size_along * np.arange(patch.rows - 1)
+    height = FOIL.reference_height
+    return (1 - np.exp(-((z / LENGTH) ** 2))) * (1 - np.exp(-(((height - z) / LENGTH) ** 2)))
+
+
+def test_variance_of_the_smooth_surface_is_the_amplitude_squared_within_its_window():
+    fields = np.array([surface(deviation("smoothed", (seed, 0, 0))) for seed in range(300)])
+    inner = slice(2, -2)
+    variance = (fields**2).mean(axis=0)[:, inner] / (AMPLITUDE * window()[inner, None]) ** 2
+    assert np.abs(variance - 1).max() < 5 * np.sqrt(2 / len(fields)) + 0.05
+    assert abs(variance.mean() - 1) < 5 * np.sqrt(2 / independent_smoothed(fields[:, :, inner]))
+
+
+def test_smoothed_imperfection_is_the_same_surface_on_every_mesh():
+    """To fourth order in the element size, which is that of the spline's fit."""
+    shapes = []
+    for n in (4, 2, 1):
+        sizes = np.pi * DIAMETER * n / 280, FOIL.reference_height * n / 80
+        patch = Patch(280 // n, 80 // n, *sizes)
+        perfect = cylinder_control_points(patch, DIAMETER)
+        moved = surface(deviation("smoothed", (7, 0, 0), patch, perfect))
+        shapes.append(moved[:, :: 4 // n, :: 4 // n])
+    coarse, middle = (np.abs(shape - shapes[2])[:, 2:-2].max() for shape in shapes[:2])
+    assert coarse < 0.15 * AMPLITUDE
+    assert middle < coarse / 8
+
+
+def test_a_mesh_too_coarse_for_the_correlation_length_is_refused():
+    patch = Patch.for_cylinder(DIAMETER, FOIL.reference_height, 2 * LENGTH)
+    with pytest.raises(ValueError, match="needs elements of at most"):
+        deviation("smoothed", (0, 0, 0), patch, cylinder_control_points(patch, DIAMETER))
 
 
 def test_variance_of_the_buckling_modes_is_the_amplitude_squared():
@@ -109,8 +149,8 @@ def test_gaussian_points_are_uncorrelated():
 
 
 def test_smoothed_correlation_is_gaussian_in_distance():
-    fields = np.array([deviation("smoothed", (seed, 0, 0))[:, FREE] for seed in range(400)])
-    fields = fields / AMPLITUDE
+    shapes = np.array([surface(deviation("smoothed", (seed, 0, 0))) for seed in range(400)])
+    fields = (shapes / (AMPLITUDE * np.maximum(window(), 1e-9)[:, None]))[:, :, 2:-2]
     independent = independent_smoothed(fields)
     for rows, columns in ((0, 1), (0, 2), (0, 4), (1, 0), (3, 0), (2, 2), (0, 20), (10, 0)):
         here = fields[:, :, : fields.shape[2] - rows]

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from foilstudy.patch import RING_ROWS, Patch
-from foilstudy.sheet import Foil, Imperfection
+from foilstudy.patch import RING_ROWS, Patch, fitted_control_points
+from foilstudy.random_field import SmoothField
+from foilstudy.sheet import SMOOTH_LENGTH_MIN, Foil, Imperfection
 
 _MODES = 40
 """Buckling modes superposed: enough for the sum to be close to Gaussian."""
@@ -33,7 +34,7 @@ def imperfect_cylinder(
     if imperfection.kind == "gaussian":
         deviation[:] = rng.standard_normal(patch.shape)
     elif imperfection.kind == "smoothed":
-        deviation[:] = _smoothed(patch, rng, imperfection.correlation_length)
+        deviation[:] = _smoothed(patch, rng, foil, imperfection.correlation_length)
     elif imperfection.kind == "buckling_modes":
         angle = np.arctan2(perfect[1], perfect[0])
         radial = _buckling_modes(patch, rng, foil)
@@ -45,26 +46,33 @@ def imperfect_cylinder(
     return perfect + imperfection.amplitude * deviation
 
 
-def _smoothed(patch: Patch, rng: np.random.Generator, length: float) -> np.ndarray:
-    """Unit-variance Gaussian field with correlation exp(-r^2 / (4 length^2)).
+def _smoothed(patch: Patch, rng: np.random.Generator, foil: Foil, length: float) -> np.ndarray:
+    """Control points of the same smooth unit-variance field on every mesh that resolves it.
 
-    White noise is filtered in Fourier space; the height is doubled so that the ends of the
-    cylinder are not correlated with each other.
+    Within about one length of a ring it falls to zero with its slope, as the ring rows stay
+    perfect: cut off there, it would have a step whose slope depends on the mesh.
+
+    Raises
+    ------
+    ValueError
+        If the mesh is too coarse for the length.
     """
-    rows = 2 * patch.rows
-    noise = rng.standard_normal((3, rows, patch.columns))
-    k_along = 2 * np.pi * np.fft.fftfreq(rows, patch.size_along)
-    k_around = 2 * np.pi * np.fft.rfftfreq(patch.columns, patch.size_around)
-    k2 = k_along[:, None] ** 2 + k_around**2
-    kernel = np.exp(-0.5 * k2 * length**2)
-    # variance of the filtered noise: mean of the squared kernel over the whole spectrum
-    weights = np.full(k_around.size, 2.0)
-    weights[0] = 1.0
-    if patch.columns % 2 == 0:
-        weights[-1] = 1.0
-    variance = (kernel**2 @ weights).sum() / (rows * patch.columns)
-    field = np.fft.irfft2(np.fft.rfft2(noise) * kernel, s=(rows, patch.columns))
-    return field[:, : patch.rows] / np.sqrt(variance)
+    coarsest = max(patch.size_around, patch.size_along)
+    if length < SMOOTH_LENGTH_MIN * coarsest:
+        raise ValueError(
+            f"a correlation length of {1e3 * length:g} mm needs elements of at most "
+            f"{1e3 * length / SMOOTH_LENGTH_MIN:.3g} mm, not {1e3 * coarsest:.3g} mm; take a finer "
+            "mesh or kind gaussian"
+        )
+    field = SmoothField.drawn(rng, np.pi * foil.diameter, foil.reference_height, length)
+    height = foil.reference_height
+
+    def surface(around: np.ndarray, along: np.ndarray) -> np.ndarray:
+        z = along[:, 0]
+        window = (1 - np.exp(-((z / length) ** 2))) * (1 - np.exp(-(((height - z) / length) ** 2)))
+        return window[:, None] * field(around[0], z)
+
+    return fitted_control_points(patch, surface)
 
 
 def _buckling_modes(patch: Patch, rng: np.random.Generator, foil: Foil) -> np.ndarray:

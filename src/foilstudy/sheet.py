@@ -42,6 +42,10 @@ class Foil:
         return (self.reference_height - self.gap_height) / self.gap_height
 
 
+SMOOTH_LENGTH_MIN = 0.7
+"""Least correlation length of a smooth imperfection over the element size that resolves it."""
+
+
 @dataclass(frozen=True)
 class Imperfection:
     """Random deviation of the stress-free shape from a perfect cylinder.
@@ -53,7 +57,8 @@ class Imperfection:
         ``buckling_modes`` (random superposition of classical axial buckling modes).
     amplitude : float
         Standard deviation of each coordinate of a control point (of the radial one for buckling
-        modes), m. The surface averages over neighbours: half of it for ``gaussian``.
+        modes), m. The surface averages over neighbours: half of it for ``gaussian``. That of
+        ``smoothed`` is the surface's own, away from the rings.
     correlation_length : float
         Standard deviation of the smoothing kernel of ``smoothed``, m.
     stream : tuple of int

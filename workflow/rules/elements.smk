@@ -4,7 +4,6 @@ from foilstudy.elementstudy import VARIANT_NAMES
 
 ELEMENT_STUDY = "results/elements"
 FROZEN_UM = [50, 250, 500, 1000]
-BUCKLED_UM = [50, 500]
 FINE_MM = ["2.5", "1.25"]
 
 
@@ -52,18 +51,18 @@ rule elements_frozen:
 
 rule elements_buckled:
     output:
-        f"{ELEMENT_STUDY}/buckled_t{{micrometres}}um.json",
+        f"{ELEMENT_STUDY}/buckled.json",
     params:
         version=VERSION,
     priority: 2
     log:
-        f"{ELEMENT_STUDY}/logs/buckled_t{{micrometres}}um.log",
+        f"{ELEMENT_STUDY}/logs/buckled.log",
     resources:
         mem_mb=2000,
     message:
-        "post-buckling energy of {wildcards.micrometres} um, refined"
+        "post-buckling energy, refined"
     shell:
-        "{RUN}/elements_buckled.py {wildcards.micrometres} {output} > {log} 2>&1"
+        "{RUN}/elements_buckled.py {output} > {log} 2>&1"
 
 
 rule elements_variant:
@@ -119,7 +118,7 @@ rule elements:
     input:
         expand(rules.elements_fine.output, millimetres=FINE_MM),
         expand(rules.elements_frozen.output, micrometres=FROZEN_UM),
-        expand(rules.elements_buckled.output, micrometres=BUCKLED_UM),
+        rules.elements_buckled.output,
         expand(rules.elements_variant.output, variant=VARIANT_NAMES),
         expand(rules.elements_crumple.output, variant=VARIANT_NAMES),
         rules.elements_cost.output,

@@ -6,12 +6,12 @@ The model is the one source of the defaults, of ``config/schema.json`` and of th
 
 from .._errors import ConfigError
 from .load import load_config
+from .mesh import Mesh
 from .model import Cell, StudyConfig
 from .sections import (
     Dynamics,
     Imperfection,
     Material,
-    Mesh,
     Relaxation,
     Report,
     Sheet,

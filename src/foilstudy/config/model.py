@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -10,11 +9,11 @@ from functools import cached_property
 from pydantic import Field, model_validator
 
 from .._errors import ConfigError
+from .mesh import Mesh, mesh_problems
 from .sections import (
     Dynamics,
     Imperfection,
     Material,
-    Mesh,
     Relaxation,
     Report,
     Section,
@@ -27,11 +26,6 @@ from .tasks import CrumpleTask, RefineTask, ResponseTask
 
 __all__ = ["Cell", "StudyConfig", "overlength_id", "thickness_id"]
 
-# Fewer elements cannot carry the first buckling waves.
-ELEMENTS_AROUND_MIN = 24
-ELEMENTS_ALONG_MIN = 8
-# About 20 GB in the refined stiffness; reached only by a slip of the unit.
-ELEMENTS_MAX = 1_000_000
 # Beyond this ratio transverse shear matters and Kirchhoff-Love theory ends.
 THICKNESS_TO_RADIUS_MAX = 1 / 20
 
@@ -109,7 +103,7 @@ class StudyConfig(Section):
 
     @model_validator(mode="after")
     def _check_across_sections(self) -> StudyConfig:
-        problems = list(self._height_problems()) or list(self._mesh_problems())
+        problems = list(self._height_problems()) or list(mesh_problems(self))
         problems += self._thickness_problems()
         problems += _duplicates("sweep.thickness_um", self.sweep.thickness_um, thickness_id)
         if self.sweep.reference_height_mm is not None:
@@ -136,29 +130,9 @@ class StudyConfig(Section):
                     "above the gap."
                 )
 
-    def _mesh_problems(self) -> Iterator[str]:
-        size = self.mesh.element_size_mm
-        circumference = math.pi * self.sheet.diameter_mm
-        heights = self.reference_heights_mm
-        around, along = round(circumference / size), round(heights[0] / size)
-        finest = min(circumference / ELEMENTS_AROUND_MIN, heights[0] / ELEMENTS_ALONG_MIN)
-        if around < ELEMENTS_AROUND_MIN or along < ELEMENTS_ALONG_MIN:
-            yield (
-                f"mesh.element_size_mm is {size:g} mm, too coarse: it leaves {around} elements "
-                f"around the circumference (at least {ELEMENTS_AROUND_MIN}) and {along} along the "
-                f"shortest cylinder (at least {ELEMENTS_ALONG_MIN}); use {_floor(finest)} mm or "
-                "less."
-            )
-        finest = size / 2**self.stiffness.refinements
-        elements = circumference * heights[-1] / finest**2
-        if elements > ELEMENTS_MAX:
-            coarser = size * math.sqrt(elements / ELEMENTS_MAX)
-            yield (
-                f"mesh.element_size_mm is {size:g} mm, which makes {elements:.2g} elements on the "
-                f"longest cylinder, refined {self.stiffness.refinements} times (at most "
-                f"{ELEMENTS_MAX:g}); use {coarser:.2g} mm or more, and check that the value is in "
-                "mm."
-            )
+    def mesh_of(self, thickness_um: float) -> Mesh:
+        """Mesh of a thickness; with ``auto`` its element size is that of the stated error."""
+        return self.mesh.resolved(self.sheet.diameter_mm / 2, thickness_um)
 
     def _thickness_problems(self) -> Iterator[str]:
         limit = 1e3 * self.sheet.diameter_mm / 2 * THICKNESS_TO_RADIUS_MAX
@@ -241,7 +215,7 @@ class StudyConfig(Section):
             sheet=self.sheet,
             material=self.material,
             imperfection=self.imperfection,
-            mesh=self.mesh,
+            mesh=self.mesh_of(cell.thickness_um),
             relaxation=self.relaxation,
             thickness_um=cell.thickness_um,
             reference_height_mm=cell.reference_height_mm,
@@ -295,9 +269,3 @@ def _duplicates(
                 f"{path}[{i}] ({value!r}) and {path}[{j}] ({values[j]!r}) are too close: both "
                 f"would be stored as {make_id(value)}; remove one, or set them 0.001 apart."
             )
-
-
-def _floor(value: float) -> str:
-    """Value rounded down to three significant digits, so that it still satisfies an upper limit."""
-    scale = 10.0 ** (math.floor(math.log10(value)) - 2)
-    return f"{math.floor(value / scale) * scale:.3g}"

@@ -208,26 +208,6 @@ class Imperfection(Section):
         return self
 
 
-class Mesh(Section):
-    """Discretisation of the foil."""
-
-    element_size_mm: float = unit_field(
-        "mm",
-        "Edge length of the elements; at least 24 fit around the cylinder and 8 along the "
-        "shortest one.",
-        5.0,
-        ge=1e-4,
-        le=1_000,
-    )
-    element: Literal["corner", "one_point"] = unit_field(
-        "choice",
-        "Where an element samples its strains. `corner`: where folds do not stretch it; "
-        "`one_point`: in its middle, much too stiff at unresolved ridges, as in the published "
-        "work.",
-        "corner",
-    )
-
-
 class Relaxation(Section):
     """Dynamic relaxation: ramp of the moving ring, then relaxation to equilibrium."""
 

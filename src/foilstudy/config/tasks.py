@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from pydantic import Field
 
+from .mesh import Mesh
 from .sections import (
     Dynamics,
     Height,
     Imperfection,
     Material,
-    Mesh,
     Relaxation,
     Section,
     Sheet,

@@ -2,7 +2,7 @@
 
 A quarter of a cylinder with mirror symmetry at both straight edges and rigid rings at both curved
 ones is shortened by 15 % of its height. A smooth dimple in the stress-free shape, eight times as
-deep as the thickest foil and not quite in the middle (or else the panel could choose between
+deep as the foil is thick and not quite in the middle (or else the panel could choose between
 mirrored shapes), decides how it buckles; so there is one path, which every element follows from
 the undeformed shape.
 """
@@ -23,7 +23,7 @@ from foilstudy.patch import Patch, fitted_control_points, refine
 from foilstudy.shell.sheet_model import SheetModel
 from foilstudy.verification.frequencies import FOIL
 
-THICKNESSES = (50e-6, 500e-6)
+THICKNESS = 500e-6
 """m."""
 RADIUS, HEIGHT, SHORTENING, DEPTH = 0.1, 0.1, 0.015, 0.004
 """m."""
@@ -53,9 +53,9 @@ class Buckled:
     points: np.ndarray
 
 
-def buckled(variant: Variant, thickness: float) -> Buckled:
+def buckled(variant: Variant) -> Buckled:
     """Follow the shortening on the 5 mm mesh."""
-    sheet, held = _panel(variant, thickness, 1)
+    sheet, held = _panel(variant, 1)
     unknowns = np.zeros(held.free)
     for step in range(1, _INCREMENTS + 1):
         problem = _shortened(sheet, held, SHORTENING * step / _INCREMENTS)
@@ -69,13 +69,12 @@ def buckled(variant: Variant, thickness: float) -> Buckled:
 
 @dataclass(frozen=True)
 class ReferenceEnergies:
-    """Energies of the default element on the meshes of `LEVELS`, J; thickness in m."""
+    """Energies of the default element on the meshes of `LEVELS`, J."""
 
-    thickness: float
     energies: tuple[float, ...]
 
 
-def reference_energies(thickness: float) -> ReferenceEnergies:
+def reference_energies() -> ReferenceEnergies:
     """Follow the path on the coarse mesh, then refine.
 
     The equilibrium on a finer mesh is sought from that on the coarser one, refined.
@@ -86,17 +85,17 @@ def reference_energies(thickness: float) -> ReferenceEnergies:
         If one is not found.
     """
     variant = VARIANTS[DEFAULT]
-    coarse = buckled(variant, thickness)
+    coarse = buckled(variant)
     energies, points = [coarse.energy], coarse.points
     for level in LEVELS[1:]:
-        sheet, held = _panel(variant, thickness, level)
+        sheet, held = _panel(variant, level)
         problem = _shortened(sheet, held, SHORTENING)
         result = _minimum(problem, problem.unknowns(refine(points, periodic=False)), _RESIDUAL)
         if result.status != "converged":
             raise SolveError(f"no equilibrium on the mesh refined {level} times: {result.message}")
         points = problem.points(result.q)
         energies.append(float(sheet.energies(points).total))
-    return ReferenceEnergies(thickness, tuple(energies))
+    return ReferenceEnergies(tuple(energies))
 
 
 def _surface(around: np.ndarray, along: np.ndarray) -> np.ndarray:
@@ -107,7 +106,7 @@ def _surface(around: np.ndarray, along: np.ndarray) -> np.ndarray:
     return np.stack([radius * np.cos(angle), radius * np.sin(angle), along])
 
 
-def _panel(variant: Variant, thickness: float, level: int) -> tuple[SheetModel, Constraints]:
+def _panel(variant: Variant, level: int) -> tuple[SheetModel, Constraints]:
     """The stress-free panel and what holds it."""
     around, along = level * _AROUND, level * _ALONG
     patch = Patch(around, along, np.pi / 2 * RADIUS / around, HEIGHT / along, periodic=False)
@@ -121,7 +120,7 @@ def _panel(variant: Variant, thickness: float, level: int) -> tuple[SheetModel, 
         "left": symmetric(1),
         "right": symmetric(0),
     }
-    sheet = SheetModel(patch, points, FOIL, thickness, variant.element)
+    sheet = SheetModel(patch, points, FOIL, THICKNESS, variant.element)
     return sheet, constraints(patch, edges)
 
 

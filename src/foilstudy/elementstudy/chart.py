@@ -41,7 +41,7 @@ def draw(study: Study):
     axes[0, 1].set_title("axial stiffness of a given crumple, 5 mm against 1.25 mm")
     costs = [(axes[1, 0], "axial_500um", "stiffness of a given crumple, 500 µm")]
     costs.append((axes[1, 1], "axial_50um", "stiffness of a given crumple, 50 µm"))
-    costs.append((axes[2, 0], "buckled_500um", "energy of a post-buckled panel, 500 µm"))
+    costs.append((axes[2, 0], "buckled", "energy of a post-buckled panel, 500 µm"))
     for ax, key, title in costs:
         _against_cost(ax, study, key)
         ax.set_title(title)

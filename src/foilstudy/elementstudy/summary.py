@@ -10,7 +10,6 @@ import numpy as np
 
 from foilstudy.elementstudy import records
 from foilstudy.elementstudy.bending import SLENDERNESS
-from foilstudy.elementstudy.buckled import THICKNESSES as BUCKLED
 from foilstudy.elementstudy.crumpling import FINE_SIZES, PUBLISHED_2MM5, PUBLISHED_5MM
 from foilstudy.elementstudy.frozen import THICKNESSES as FROZEN
 from foilstudy.elementstudy.scene import micrometres
@@ -18,7 +17,6 @@ from foilstudy.elementstudy.variants import VARIANTS
 from foilstudy.files import written_whole
 
 FROZEN_UM = tuple(str(micrometres(t)) for t in FROZEN)
-BUCKLED_UM = tuple(str(micrometres(t)) for t in BUCKLED)
 
 
 @dataclass(frozen=True)
@@ -29,8 +27,8 @@ class Study:
     ----------
     variants, crumples : dict of str to dict
         By variant, see `records.VariantErrors` and `crumpling.Crumples`.
-    buckled : dict of str to float
-        Refined post-buckling energy by thickness, J.
+    buckled : float
+        Refined post-buckling energy, J.
     fine : dict of float to dict
         Crumples of the default element by element size (m).
     cost : dict
@@ -39,7 +37,7 @@ class Study:
 
     variants: dict[str, dict]
     crumples: dict[str, dict]
-    buckled: dict[str, float]
+    buckled: float
     fine: dict[float, dict]
     cost: dict
 
@@ -49,7 +47,7 @@ class Study:
         return cls(
             {name: records.read(folder / f"variants/{name}.json") for name in VARIANTS},
             {name: records.read(folder / f"crumples/{name}.json") for name in VARIANTS},
-            {t: records.read(folder / f"buckled_t{t}um.json")["energies"][-1] for t in BUCKLED_UM},
+            records.read(folder / "buckled.json")["energies"][-1],
             {s: records.read(folder / f"fine_{1e3 * s:g}mm.json") for s in FINE_SIZES},
             records.read(folder / "cost.json"),
         )
@@ -68,8 +66,7 @@ class Study:
         row["roll_up"] = errors["roll_up"]
         for t in FROZEN_UM:
             row[f"axial_{t}um"], row[f"radial_{t}um"] = errors["frozen"][t]
-        for t in BUCKLED_UM:
-            row[f"buckled_{t}um"] = errors["buckled"][t] / self.buckled[t] - 1
+        row["buckled"] = errors["buckled"] / self.buckled - 1
         settled = np.isfinite(crumples["energies"])
         energies = np.array(crumples["energies"])[settled]
         row["crumple_energy"] = energies.mean() if settled.any() else np.nan
@@ -101,8 +98,7 @@ _HEADINGS = (
     ("axial_250um", "axial 250 µm", "{:+.0%}"),
     ("axial_500um", "axial 500 µm", "{:+.0%}"),
     ("radial_500um", "radial 500 µm", "{:+.0%}"),
-    ("buckled_50um", "buckled 50 µm", "{:+.0%}"),
-    ("buckled_500um", "buckled 500 µm", "{:+.1%}"),
+    ("buckled", "buckled", "{:+.1%}"),
     ("crumple_energy", "crumple, J", "{:.2f}"),
     ("steps", "steps", "{:.0f}"),
 )

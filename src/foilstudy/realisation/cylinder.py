@@ -25,10 +25,11 @@ def cylinder_bounds(study: StudyConfig, path: Path) -> None:
     element = OnePoint()  # most accurate where nothing folds
     diameter, material = study.sheet.diameter_mm * 1e-3, material_of(study.material)
     bounds = np.empty((len(study.thicknesses_um), len(study.reference_heights_mm), 2))
-    for j, height_mm in enumerate(study.reference_heights_mm):
-        patch = Patch.for_cylinder(diameter, height_mm * 1e-3, study.mesh.element_size_mm * 1e-3)
-        points = cylinder_control_points(patch, diameter)
-        for i, thickness_um in enumerate(study.thicknesses_um):
+    for i, thickness_um in enumerate(study.thicknesses_um):
+        size = study.mesh_of(thickness_um).element_size_mm * 1e-3
+        for j, height_mm in enumerate(study.reference_heights_mm):
+            patch = Patch.for_cylinder(diameter, height_mm * 1e-3, size)
+            points = cylinder_control_points(patch, diameter)
             sheet = SheetModel(patch, points, material, thickness_um * 1e-6, element)
             system = InterfaceSystem.split(stiffness_matrix(sheet), Rings.of(patch, points))
             try:

@@ -1,0 +1,158 @@
+"""The mesh of a study: its section, what `auto` makes of it, and whether it can carry the study."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+from pydantic import Field, PlainSerializer, WithJsonSchema, WrapValidator, model_validator
+
+from ..mesh_size import element_size_for
+from ..sheet import SMOOTH_LENGTH_MIN
+from .sections import Section, unit_field
+
+if TYPE_CHECKING:
+    from .model import StudyConfig
+
+AUTO = "auto"
+ENERGY_ERROR_DEFAULT_PERCENT = 10.0
+# Fewer elements cannot carry the first buckling waves.
+ELEMENTS_AROUND_MIN = 24
+ELEMENTS_ALONG_MIN = 8
+# About 20 GB in the refined stiffness; reached only by a slip of the unit.
+ELEMENTS_MAX = 1_000_000
+
+
+def _size_or_auto(value: Any, as_number: Callable[[Any], float]) -> float | str:
+    return AUTO if value == AUTO else as_number(value)
+
+
+# One type with a word beside the numbers: of a union, Pydantic would report every branch.
+ElementSize = Annotated[
+    float,
+    Field(ge=1e-4, le=1_000),
+    WrapValidator(_size_or_auto),
+    PlainSerializer(lambda value: value),
+    WithJsonSchema(
+        {"anyOf": [{"type": "number", "minimum": 1e-4, "maximum": 1000}, {"const": AUTO}]}
+    ),
+]
+
+
+class Mesh(Section):
+    """Discretisation of the foil."""
+
+    element_size_mm: ElementSize = unit_field(
+        "mm",
+        "Edge length of the elements; at least 24 fit around the cylinder and 8 along the "
+        "shortest one. `auto`: for each thickness the largest that keeps `energy_error_percent`.",
+        5.0,
+    )
+    energy_error_percent: float | None = unit_field(
+        "%",
+        "Expected error of the strain energy that an `auto` element size keeps "
+        f"({ENERGY_ERROR_DEFAULT_PERCENT:g} if left out); only with `auto`.",
+        None,
+        ge=0.1,
+        le=100,
+    )
+    element: Literal["corner", "one_point"] = unit_field(
+        "choice",
+        "Where an element samples its strains. `corner`: where folds do not stretch it; "
+        "`one_point`: in its middle, much too stiff at unresolved ridges, as in the published "
+        "work.",
+        "corner",
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _default_energy_error(cls, data: Any) -> Any:
+        if (
+            isinstance(data, Mapping)
+            and data.get("element_size_mm") == AUTO
+            and data.get("energy_error_percent") is None
+        ):
+            return dict(data) | {"energy_error_percent": ENERGY_ERROR_DEFAULT_PERCENT}
+        return data
+
+    @model_validator(mode="after")
+    def _error_only_if_auto(self) -> Mesh:
+        if self.element_size_mm != AUTO and self.energy_error_percent is not None:
+            raise ValueError(
+                "mesh.energy_error_percent is given, but mesh.element_size_mm is a number, which "
+                "settles the mesh; remove one of them, or set mesh.element_size_mm: auto."
+            )
+        if self.element_size_mm == AUTO and self.element != "corner":
+            raise ValueError(
+                f"mesh.element_size_mm is auto, but the mesh error of the {self.element} element "
+                "is not known; give a size, or use mesh.element: corner."
+            )
+        return self
+
+    def resolved(self, radius_mm: float, thickness_um: float) -> Mesh:
+        """The mesh of one foil, its element size a number."""
+        if self.element_size_mm != AUTO:
+            return self
+        error = self.energy_error_percent / 100
+        size = element_size_for(error, radius_mm * 1e-3, thickness_um * 1e-6)
+        return Mesh(element_size_mm=round(1e3 * size, 9), element=self.element)
+
+
+def mesh_problems(study: StudyConfig) -> Iterator[str]:
+    """One sentence for each problem of the meshes, with its remedy."""
+    mesh = study.mesh
+    if mesh.element_size_mm != AUTO:
+        yield from _size_problems(study, mesh.element_size_mm, "")
+        return
+    # the thinnest foil has the finest mesh, the thickest one the coarsest
+    for thickness in sorted({min(study.sweep.thickness_um), max(study.sweep.thickness_um)}):
+        which = f" (auto, {thickness:g} um, {mesh.energy_error_percent:g} % of energy error)"
+        yield from _size_problems(study, study.mesh_of(thickness).element_size_mm, which)
+
+
+def _size_problems(study: StudyConfig, size: float, which: str) -> Iterator[str]:
+    circumference = math.pi * study.sheet.diameter_mm
+    heights = study.reference_heights_mm
+    around, along = round(circumference / size), round(heights[0] / size)
+    if around < ELEMENTS_AROUND_MIN or along < ELEMENTS_ALONG_MIN:
+        finest = min(circumference / ELEMENTS_AROUND_MIN, heights[0] / ELEMENTS_ALONG_MIN)
+        yield (
+            f"mesh.element_size_mm is {size:g} mm{which}, too coarse: it leaves {around} elements "
+            f"around the circumference (at least {ELEMENTS_AROUND_MIN}) and {along} along the "
+            f"shortest cylinder (at least {ELEMENTS_ALONG_MIN}); use {_floor(finest)} mm or "
+            "less."
+        )
+    else:
+        lengths = [height / round(height / size) for height in heights]
+        yield from _smoothing_problems(study, max(circumference / around, *lengths))
+    finest = size / 2**study.stiffness.refinements
+    elements = circumference * heights[-1] / finest**2
+    if elements > ELEMENTS_MAX:
+        coarser = size * math.sqrt(elements / ELEMENTS_MAX)
+        remedy = (
+            "allow a larger mesh.energy_error_percent, refine less, or give a size"
+            if which
+            else f"use {coarser:.2g} mm or more, and check that the value is in mm"
+        )
+        yield (
+            f"mesh.element_size_mm is {size:g} mm{which}, which makes {elements:.2g} elements on "
+            f"the longest cylinder, refined {study.stiffness.refinements} times (at most "
+            f"{ELEMENTS_MAX:g}); {remedy}."
+        )
+
+
+def _smoothing_problems(study: StudyConfig, size: float) -> Iterator[str]:
+    length = study.imperfection.correlation_length_mm
+    if length is not None and length < SMOOTH_LENGTH_MIN * size:
+        yield (
+            f"imperfection.correlation_length_mm is {length:g} mm, which elements of {size:.3g} mm "
+            f"cannot follow; use {SMOOTH_LENGTH_MIN * size:.3g} mm or more, a smaller "
+            "mesh.element_size_mm, or imperfection.kind: gaussian."
+        )
+
+
+def _floor(value: float) -> str:
+    """Value rounded down to three significant digits, so that it still satisfies an upper limit."""
+    scale = 10.0 ** (math.floor(math.log10(value)) - 2)
+    return f"{math.floor(value / scale) * scale:.3g}"

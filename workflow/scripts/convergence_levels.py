@@ -1,0 +1,9 @@
+"""A crumple refined and relaxed level by level: convergence_levels.py CASE RECORD_JSON."""
+
+import sys
+
+from foilstudy.convergence.crumpling import run_levels
+from foilstudy.convergence.records import write
+
+name, path = sys.argv[1:]
+write(run_levels(name), path)
