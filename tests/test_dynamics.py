@@ -136,7 +136,7 @@ def test_frequency_grid_is_logarithmic_with_exact_ends():
 
 def test_undamped_response_against_the_full_order(structure, model):
     """Constraint modes and inertia relief leave an error of fourth order in frequency."""
-    share = np.array([0.025, 0.05, 0.1, 0.2, 0.3, 0.4])
+    share = np.array([0.0125, 0.025, 0.05, 0.1, 0.3, 0.4])
     ours = interface_dynamic_stiffness(model, share * CUTOFF_HZ, 0.0)
     assert np.abs(ours.imag).max() == 0.0
     errors = []
