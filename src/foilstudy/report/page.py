@@ -213,9 +213,16 @@ def _scope(cube: xr.Dataset, config: dict) -> list[str]:
             f"ν = {numerals.nominal(material['poisson_ratio'])}"
         )
     if "mesh" in config:
-        size = numerals.nominal(config["mesh"]["element_size_mm"])
-        phrases.append(f"{mesh.element_kind(config)} elements of {size} mm")
+        phrases.append(f"{mesh.element_kind(config)} elements {_element_size(config['mesh'])}")
     return phrases
+
+
+def _element_size(section: dict) -> str:
+    size = section["element_size_mm"]
+    if size == "auto":
+        error = numerals.nominal(section["energy_error_percent"])
+        return f"sized for an energy error of {error} %"
+    return f"of {numerals.nominal(size)} mm"
 
 
 def _figures(folder: Path) -> dict[str, list[Figure]]:
