@@ -39,8 +39,13 @@ class Patch:
 
     @classmethod
     def for_cylinder(cls, diameter: float, height: float, element_size: float) -> Patch:
-        """Nearly square elements of about `element_size`; lengths in m."""
-        around = round(np.pi * diameter / element_size)
+        """Nearly square elements of about `element_size`; lengths in m.
+
+        The number around has no prime factor above 7, for the Fourier transform of the mass
+        scaling: with 251 or 503 elements, primes next to 2.5 and 1.25 mm, a step takes twice the
+        time.
+        """
+        around = _nearest_smooth(np.pi * diameter / element_size)
         along = round(height / element_size)
         return cls(around, along, np.pi * diameter / around, height / along)
 
@@ -73,6 +78,13 @@ class Patch:
         """Parameters (columns,) and (rows,) at which the control points stand; edges are at 0."""
         around = self.size_around * (np.arange(self.columns) - (0.0 if self.periodic else 0.5))
         return around, self.size_along * (np.arange(self.rows) - 0.5)
+
+
+def _nearest_smooth(wanted: float) -> int:
+    """The number nearest to `wanted` whose prime factors are 2, 3, 5 and 7."""
+    powers = (float(prime) ** np.arange(16) for prime in (2, 3, 5, 7))
+    smooth = np.prod(np.meshgrid(*powers), axis=0).ravel()
+    return int(smooth[np.abs(smooth - wanted).argmin()])
 
 
 def fitted_control_points(

@@ -215,7 +215,12 @@ class Relaxation(Section):
         "steps", "Steps in which the top ring closes the gap.", 2000, ge=10, le=10_000_000
     )
     relaxation_steps_max: int = unit_field(
-        "steps", "Most steps after the ramp; then `not_converged`.", 40000, ge=0, le=10_000_000
+        "steps",
+        "Most explicit steps after the ramp; what still moves then is minimised with its tangent, "
+        "which is slower.",
+        14000,
+        ge=0,
+        le=10_000_000,
     )
     residual_tolerance: float = unit_field(
         "1", "Free force norm over ring force norm, at equilibrium.", 1e-8, gt=0, lt=1

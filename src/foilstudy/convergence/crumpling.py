@@ -52,24 +52,10 @@ def foil_of(case: Case) -> Foil:
     )  # fmt: skip
 
 
-def patch_of(foil: Foil, size: float) -> Patch:
-    """Nearly square elements, as many around as a Fourier transform is fast for.
-
-    Of 251 and 503 elements, the primes nearest to 2.5 and 1.25 mm, a step takes twice the time.
-    """
-    circumference = np.pi * foil.diameter
-    wanted = circumference / size
-    factors = np.meshgrid(*(float(f) ** np.arange(12) for f in (2, 3, 5, 7)))
-    smooth = np.unique(np.prod(factors, axis=0))
-    around = int(smooth[np.abs(smooth - wanted).argmin()])
-    along = round(foil.reference_height / size)
-    return Patch(around, along, circumference / around, foil.reference_height / along)
-
-
 def imperfect(case: Case) -> Crumple:
     """The uncrumpled foil of a case, its imperfection the same field on every mesh."""
     foil = foil_of(case)
-    patch = patch_of(foil, case.size_mm * 1e-3)
+    patch = Patch.for_cylinder(foil.diameter, foil.reference_height, case.size_mm * 1e-3)
     stream = (case.seed, 1000 * case.thickness_um, 1000 * case.height_mm)
     imperfection = Imperfection("smoothed", _AMPLITUDE, _CORRELATION, stream)
     perfect = cylinder_control_points(patch, foil.diameter)
@@ -90,7 +76,7 @@ def settled(case: Case) -> tuple[Crumple, dict]:
     numbers |= {"status": relaxed.status, "message": relaxed.message, "residual": relaxed.residual}
     numbers |= {"steps": relaxed.steps - RAMP_STEPS, "negative_eigenvalues": None, "hessians": 0}
     points = relaxed.points
-    if relaxed.status == "converged":
+    if relaxed.status != "diverged":
         points = _settle(sheet, scheme, points, options, numbers)
     return replace(crumple, points=points), numbers
 

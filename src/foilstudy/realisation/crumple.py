@@ -58,7 +58,7 @@ def crumple(task: CrumpleTask, path: Path) -> None:
 class _Outcome:
     """How far a realisation came: through the ramp and the first relaxation, then to equilibrium.
 
-    `settled` is None where the first relaxation did not come near an equilibrium.
+    `settled` is None where the first relaxation diverged.
     """
 
     relaxed: RelaxationResult
@@ -85,7 +85,7 @@ def _crumpled(task: CrumpleTask) -> tuple[SheetModel, _Outcome]:
     )
     ramp = Ramp(foil.reference_height - foil.gap_height, options.ramp_steps)
     relaxed = relax(sheet, scheme, ramp, rule)
-    if relaxed.status != "converged":
+    if relaxed.status == "diverged":
         return sheet, _Outcome(relaxed, None)
     left = options.relaxation_steps_max - (relaxed.steps - ramp.steps)
     settling = replace(settling, relaxation_steps_max=left)

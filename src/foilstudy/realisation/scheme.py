@@ -7,7 +7,7 @@ from foilstudy.relaxation.damping import AdaptiveViscousDamping
 from foilstudy.relaxation.spectral_mass import SpectralMass
 from foilstudy.shell.sheet_model import SheetModel
 
-RAMP_DAMPING, RELAXATION_DAMPING = 0.5, 0.08
+RAMP_DAMPING, RELAXATION_DAMPING = 0.5, 0.06
 """Share of the critical damping of the current motion, while the ring moves and after. The Rayleigh
 quotient overestimates the slowest mode, so that less damping settles sooner (docs/method.md)."""
 
