@@ -27,7 +27,6 @@ CONFIG = load_config(
         "relaxation": {"ramp_steps": 100, "relaxation_steps_max": 4000},
         "stiffness": {"refinements": 0},
         "dynamics": {
-            "cutoff_hz": 400,
             "shown_max_hz": 100,
             "frequencies": 5,
             "eigenfrequencies": 3,
@@ -56,7 +55,9 @@ def results(tmp_path_factory):
         crumple(task, folder / "crumple.nc")
         with pytest.MonkeyPatch.context() as patch:
             if index == CRASHED:
-                patch.setattr(sys.modules["foilstudy.realisation.respond"], "condense", explode)
+                patch.setattr(
+                    sys.modules["foilstudy.realisation.respond"], "fixed_stiffness", explode
+                )
             respond(CONFIG.response_task(cell), folder / "crumple.nc", folder / "response.nc")
     cylinder_bounds(CONFIG, results / "cylinder.nc")
     return results

@@ -28,7 +28,6 @@ def study(**sections):
             "mesh": {"element_size_mm": 15},
             "relaxation": {"ramp_steps": 100, "relaxation_steps_max": 4000},
             "dynamics": {
-                "cutoff_hz": 400,
                 "shown_max_hz": 100,
                 "frequencies": 5,
                 "eigenfrequencies": 3,

@@ -27,7 +27,7 @@ def compile_kernels() -> None:
             "sweep": {"thickness_um": [500], "reference_height_mm": [150], "realisations": 1},
             "mesh": {"element_size_mm": 15},
             "relaxation": {"ramp_steps": 200},
-            "dynamics": {"cutoff_hz": 100, "shown_max_hz": 50},
+            "dynamics": {"shown_max_hz": 50},
         }
     )
     (cell,) = study.cells()

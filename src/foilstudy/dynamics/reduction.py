@@ -1,4 +1,4 @@
-"""What a reduction starts from and what it returns."""
+"""What every reduction returns, and the projection they share."""
 
 from __future__ import annotations
 
@@ -8,19 +8,7 @@ from typing import Protocol
 import numpy as np
 from scipy.linalg import eigh
 
-from foilstudy.stiffness.condensation import InterfaceSystem, StaticCondensation
-
-INTERFACE = 12
-"""Motions of the two rings; they are the first coordinates of every reduced model."""
-
-
-@dataclass(frozen=True)
-class Structure:
-    """Stiffness and mass of a sheet with rings, and its static condensation."""
-
-    stiffness: InterfaceSystem
-    mass: InterfaceSystem
-    static: StaticCondensation
+from foilstudy.dynamics.structure import INTERFACE, Structure
 
 
 @dataclass(frozen=True)
@@ -33,29 +21,78 @@ class ReducedModel:
     Attributes
     ----------
     stiffness, mass : ndarray, shape (12 + m, 12 + m)
-    retained_modes : int
-        Free-free elastic modes in the basis.
+        Symmetric; the first 12 coordinates are the ring motions themselves (`INTERFACE`), in the
+        order of `foilstudy.stiffness.DOF_NAMES`.
+    basis : ndarray, shape (interior, m)
+        Displacement of the interior per generalised coordinate.
+    rigid_modes : int
+        Motions without stiffness: six, three under pre-stress.
+    method : str
+        For example ``rational_krylov``.
+    error_estimate : float
+        Largest estimated relative error of the dynamic stiffness in the band that the reduction
+        was asked for; NaN where it was asked for none.
+    valid_to_hz : float
+        Up to where that estimate meets the tolerance; NaN likewise.
     """
 
     stiffness: np.ndarray
     mass: np.ndarray
-    retained_modes: int
+    basis: np.ndarray
+    rigid_modes: int
+    method: str
+    error_estimate: float = np.nan
+    valid_to_hz: float = np.nan
+
+    @property
+    def size(self) -> int:
+        """Number of coordinates."""
+        return self.mass.shape[0]
+
+    @property
+    def interface_map(self) -> np.ndarray:
+        """Ring motions from the coordinates, shape (12, 12 + m)."""
+        return np.eye(INTERFACE, self.size)
 
     @property
     def static_stiffness(self) -> np.ndarray:
         """Interface stiffness at zero frequency, shape (12, 12)."""
         return self.stiffness[:INTERFACE, :INTERFACE]
 
-    def clamped_eigenfrequencies(self, count: int) -> np.ndarray:
-        """First eigenfrequencies with both rings clamped, Hz; NaN where there are fewer."""
-        interior = slice(INTERFACE, None)
-        values = eigh(
-            self.stiffness[interior, interior], self.mass[interior, interior], eigvals_only=True
-        )
-        out = np.full(count, np.nan)
-        found = min(count, values.size)
-        out[:found] = np.sqrt(np.maximum(values[:found], 0.0)) / (2 * np.pi)
-        return out
+    def clamped_eigenfrequencies(self) -> np.ndarray:
+        """All eigenfrequencies with both rings held, ascending, Hz."""
+        return self.clamped_modes(self.size)[0]
+
+    def clamped_modes(self, count: int) -> tuple[np.ndarray, np.ndarray]:
+        """First modes with both rings held.
+
+        Returns
+        -------
+        frequencies : ndarray, shape (at most count,)
+            Hz.
+        shapes : ndarray, shape (interior, at most count)
+            Mass-normalised displacements, m/sqrt(kg m2).
+        """
+        inner = slice(INTERFACE, None)
+        if self.size == INTERFACE:
+            return np.empty(0), np.empty((self.basis.shape[0], 0))
+        values, vectors = eigh(self.stiffness[inner, inner], self.mass[inner, inner])
+        frequencies = np.sqrt(np.maximum(values[:count], 0.0)) / (2 * np.pi)
+        return frequencies, self.basis @ vectors[:, :count]
+
+    def free_modes(self) -> tuple[np.ndarray, np.ndarray]:
+        """All modes of the free structure; the eigenvalues of rigid motions are exactly zero.
+
+        Returns
+        -------
+        eigenvalues : ndarray, shape (12 + m,)
+            Squared angular eigenfrequencies, rad2/s2; some may be negative under pre-stress.
+        vectors : ndarray, shape (12 + m, 12 + m)
+            Mass-normalised, in the coordinates of the model.
+        """
+        values, vectors = eigh(self.stiffness, self.mass)
+        values[np.argsort(np.abs(values))[: self.rigid_modes]] = 0.0
+        return values, vectors
 
 
 class Reduction(Protocol):
@@ -66,7 +103,7 @@ class Reduction(Protocol):
         ...
 
 
-def project(structure: Structure, basis: np.ndarray, retained_modes: int) -> ReducedModel:
+def project(structure: Structure, basis: np.ndarray, method: str) -> ReducedModel:
     """Galerkin projection onto the constraint modes and an interior basis.
 
     Parameters
@@ -74,7 +111,7 @@ def project(structure: Structure, basis: np.ndarray, retained_modes: int) -> Red
     structure : Structure
     basis : ndarray, shape (interior, m)
         Linearly independent interior displacements with the rings at rest.
-    retained_modes : int
+    method : str
 
     Returns
     -------
@@ -92,4 +129,7 @@ def project(structure: Structure, basis: np.ndarray, retained_modes: int) -> Red
     mass[INTERFACE:, :INTERFACE] = basis.T @ carried
     mass[:INTERFACE, INTERFACE:] = mass[INTERFACE:, :INTERFACE].T
     mass[INTERFACE:, INTERFACE:] = basis.T @ (m.interior @ basis)
-    return ReducedModel(0.5 * (stiffness + stiffness.T), 0.5 * (mass + mass.T), retained_modes)
+    return ReducedModel(
+        0.5 * (stiffness + stiffness.T), 0.5 * (mass + mass.T), basis,
+        structure.rigid_modes, method,
+    )  # fmt: skip

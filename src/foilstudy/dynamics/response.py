@@ -1,11 +1,12 @@
-"""Interface dynamic stiffness of a reduced model with modal damping."""
+"""Interface dynamic stiffness of a reduced model, damped, and what is read from it."""
 
 from __future__ import annotations
 
 import numpy as np
-from scipy.linalg import eigh
 
-from foilstudy.dynamics.reduction import INTERFACE, ReducedModel
+from foilstudy.dynamics.damping import Damping
+from foilstudy.dynamics.reduction import ReducedModel
+from foilstudy.dynamics.structure import INTERFACE
 from foilstudy.stiffness.directional import DIRECTIONS, MOTIONS
 
 DEFINITIONS = ("transfer", "driving", "relative")
@@ -13,8 +14,6 @@ DEFINITIONS = ("transfer", "driving", "relative")
 heavy frame). ``driving``: force on the moved bottom ring. ``relative``: inverse of the receptance
 of a self-balanced pair of forces on the two rings, per relative motion. All other motions of both
 rings are held in all three."""
-
-_RIGID_MODES = 6
 
 
 def frequency_grid(lowest: float, highest: float, count: int) -> np.ndarray:
@@ -25,46 +24,45 @@ def frequency_grid(lowest: float, highest: float, count: int) -> np.ndarray:
 
 
 def interface_dynamic_stiffness(
-    model: ReducedModel, frequencies: np.ndarray, damping_ratio: float
+    model: ReducedModel, frequencies: np.ndarray, damping: Damping
 ) -> np.ndarray:
     """D(omega) on the twelve ring motions, the inverse of the interface receptance.
 
-    H(omega) = sum_j phi_j phi_j^T / (omega_j^2 - omega^2 + 2 i zeta omega_j omega) over all free
-    modes of the reduced model; the six rigid modes have omega_j = 0 exactly.
+    H(omega) = sum_j phi_j phi_j^T / (omega_j^2 - omega^2 + d_j) over all free modes of the reduced
+    model, with the damping term d_j; rigid modes have omega_j = 0 exactly.
 
     Parameters
     ----------
     model : ReducedModel
     frequencies : ndarray
         Hz, positive.
-    damping_ratio : float
-        zeta, the same for every elastic mode.
+    damping : Damping
 
     Returns
     -------
     ndarray of complex, shape (frequencies, 12, 12)
     """
-    values, shapes = eigh(model.stiffness, model.mass)
-    values[:_RIGID_MODES] = 0.0
+    values, shapes = model.free_modes()
     interface = shapes[:INTERFACE]
-    omega = 2 * np.pi * np.asarray(frequencies)[:, None]
-    natural = np.sqrt(values)[None]
-    denominator = natural**2 - omega**2 + 2j * damping_ratio * natural * omega
+    omega = 2 * np.pi * np.asarray(frequencies, dtype=float)[:, None]
+    denominator = values - omega**2 + damping.modal(values, omega)
     receptance = np.einsum("im,fm,jm->fij", interface, 1 / denominator, interface, optimize=True)
     return np.linalg.inv(receptance)
 
 
-def dynamic_stiffness(
-    model: ReducedModel, frequencies: np.ndarray, damping_ratio: float
-) -> np.ndarray:
+def directional_stiffness(interface_stiffness: np.ndarray) -> np.ndarray:
     """Axial and radial dynamic stiffness in the three definitions.
+
+    Parameters
+    ----------
+    interface_stiffness : ndarray of complex, shape (frequencies, 12, 12)
 
     Returns
     -------
     ndarray of complex, shape (3 definitions, 2 directions, frequencies), N/m
         In the order of `DEFINITIONS` and `DIRECTIONS`; the radial one is the mean over x and y.
     """
-    full = interface_dynamic_stiffness(model, frequencies, damping_ratio)
+    full = interface_stiffness
     out = np.empty((len(DEFINITIONS), len(DIRECTIONS), len(full)), dtype=complex)
     for d, direction in enumerate(DIRECTIONS):
         pairs = np.array([(motion, motion + 6) for motion in MOTIONS[direction]])
@@ -76,3 +74,13 @@ def dynamic_stiffness(
         out[1, d] = bottom.mean(axis=1)
         out[2, d] = relative.mean(axis=1)
     return out
+
+
+def dynamic_stiffness(model: ReducedModel, frequencies: np.ndarray, damping: Damping) -> np.ndarray:
+    """Axial and radial dynamic stiffness of a reduced model, see `directional_stiffness`."""
+    return directional_stiffness(interface_dynamic_stiffness(model, frequencies, damping))
+
+
+def relative_error(ours: np.ndarray, truth: np.ndarray) -> np.ndarray:
+    """|D - D_truth| / |D_truth| of dynamic stiffnesses, frequency by frequency."""
+    return np.abs(ours - truth) / np.abs(truth)

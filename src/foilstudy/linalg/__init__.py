@@ -3,5 +3,15 @@
 from foilstudy.linalg.eigenpairs import Modes, modes_below
 from foilstudy.linalg.errors import SolveError
 from foilstudy.linalg.factorisation import Factorisation, backend, factorise
+from foilstudy.linalg.krylov import BlockKrylov, mass_orthonormal
 
-__all__ = ["Factorisation", "Modes", "SolveError", "backend", "factorise", "modes_below"]
+__all__ = [
+    "BlockKrylov",
+    "Factorisation",
+    "Modes",
+    "SolveError",
+    "backend",
+    "factorise",
+    "mass_orthonormal",
+    "modes_below",
+]

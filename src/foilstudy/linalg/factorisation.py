@@ -21,7 +21,8 @@ from foilstudy.linalg.superlu import SuperLUFactorisation
 class Factorisation(Protocol):
     """A factored symmetric matrix."""
 
-    negative_eigenvalues: int
+    negative_eigenvalues: int | None
+    """None for a complex matrix."""
 
     def solve(self, rhs: np.ndarray) -> np.ndarray:
         """Solve for one or several right-hand sides, shape (n,) or (n, k)."""
@@ -45,7 +46,7 @@ def factorise(matrix: sparse.csr_matrix, residual_tolerance: float = 1e-8) -> Fa
     Parameters
     ----------
     matrix : csr_matrix
-        Symmetric, both triangles stored.
+        Real or complex symmetric (not Hermitian), both triangles stored.
     residual_tolerance : float
         Largest accepted relative residual of the check, |A x - b| / (|A| |x|).
 

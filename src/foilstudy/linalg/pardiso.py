@@ -15,7 +15,7 @@ import scipy.sparse as sparse
 
 from foilstudy.linalg.errors import SolveError
 
-_SYMMETRIC_INDEFINITE = -2
+_SYMMETRIC_INDEFINITE, _COMPLEX_SYMMETRIC = -2, 6
 _ANALYSE_AND_FACTOR, _SOLVE, _RELEASE = 12, 33, -1
 _CBWR_AUTO = 2
 """Conditional numerical reproducibility: the fastest code of this machine, the same in every run.
@@ -52,7 +52,8 @@ class _Job:
 
     def __init__(self, upper: sparse.csr_matrix):
         self.size = upper.shape[0]
-        self.values = np.ascontiguousarray(upper.data, dtype=np.float64)
+        self.kind = _COMPLEX_SYMMETRIC if np.iscomplexobj(upper) else _SYMMETRIC_INDEFINITE
+        self.values = np.ascontiguousarray(upper.data, dtype=_DTYPES[self.kind])
         self.starts = upper.indptr.astype(np.int32)
         self.columns = upper.indices.astype(np.int32)
         self.handle = np.zeros(64, dtype=np.int64)
@@ -67,7 +68,7 @@ class _Job:
         arrays = (self.handle, self.values, self.starts, self.columns, self.settings)
         handle, values, starts, columns, settings = (a.ctypes.data_as(_POINTER) for a in arrays)
         count = 1 if rhs.ndim == 1 else rhs.shape[1]
-        numbers = (1, 1, _SYMMETRIC_INDEFINITE, phase, self.size, count, 0)
+        numbers = (1, 1, self.kind, phase, self.size, count, 0)
         maxfct, mnum, mtype, stage, size, nrhs, quiet = (
             ctypes.byref(ctypes.c_int32(number)) for number in numbers
         )
@@ -81,6 +82,7 @@ class _Job:
 
 
 _POINTER = ctypes.c_void_p
+_DTYPES = {_SYMMETRIC_INDEFINITE: np.float64, _COMPLEX_SYMMETRIC: np.complex128}
 
 
 def _release(job: _Job) -> None:
@@ -89,21 +91,25 @@ def _release(job: _Job) -> None:
 
 
 class PardisoFactorisation:
-    """L D L^T factors with Bunch-Kaufman pivots; the signs of D give the inertia."""
+    """L D L^T factors with Bunch-Kaufman pivots; the signs of D give the inertia.
+
+    Of a real or a complex symmetric matrix; the latter has no inertia.
+    """
 
     def __init__(self, matrix: sparse.csr_matrix):
         upper = sparse.triu(matrix, format="csr")
         upper.sort_indices()
         self._job = _Job(upper)
         weakref.finalize(self, _release, self._job)
-        self._run(_ANALYSE_AND_FACTOR, np.zeros(self._job.size))
+        self._run(_ANALYSE_AND_FACTOR, np.zeros(self._job.size, dtype=self._job.values.dtype))
         if self._job.settings[13] > 0:
             raise SolveError("the matrix is singular: Pardiso had to perturb a pivot")
-        self.negative_eigenvalues = int(self._job.settings[22])
+        real = self._job.kind == _SYMMETRIC_INDEFINITE
+        self.negative_eigenvalues = int(self._job.settings[22]) if real else None
 
     def solve(self, rhs: np.ndarray) -> np.ndarray:
         """Solve for one or several right-hand sides, shape (n,) or (n, k)."""
-        return self._run(_SOLVE, np.asfortranarray(rhs, dtype=np.float64))
+        return self._run(_SOLVE, np.asfortranarray(rhs, dtype=self._job.values.dtype))
 
     def _run(self, phase: int, rhs: np.ndarray) -> np.ndarray:
         solution = np.empty_like(rhs)

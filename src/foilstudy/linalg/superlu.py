@@ -10,7 +10,10 @@ from foilstudy.linalg.errors import SolveError
 
 
 class SuperLUFactorisation:
-    """L U factors in symmetric mode; the signs of U's diagonal give the inertia."""
+    """L U factors in symmetric mode; the signs of U's diagonal give the inertia.
+
+    Of a real or a complex symmetric matrix; the latter has no inertia.
+    """
 
     def __init__(self, matrix: sparse.csr_matrix):
         try:
@@ -22,8 +25,11 @@ class SuperLUFactorisation:
             )
         except RuntimeError as error:
             raise SolveError(f"the matrix cannot be factored: {error}") from error
-        self.negative_eigenvalues = int(np.sum(self._factor.U.diagonal() < 0))
+        self._dtype = matrix.dtype
+        self.negative_eigenvalues = None
+        if not np.iscomplexobj(matrix):
+            self.negative_eigenvalues = int(np.sum(self._factor.U.diagonal() < 0))
 
     def solve(self, rhs: np.ndarray) -> np.ndarray:
         """Solve for one or several right-hand sides."""
-        return self._factor.solve(np.ascontiguousarray(rhs))
+        return self._factor.solve(np.ascontiguousarray(rhs, dtype=self._dtype))

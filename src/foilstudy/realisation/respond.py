@@ -12,19 +12,14 @@ from pathlib import Path
 import numpy as np
 
 from foilstudy.config import ResponseTask
-from foilstudy.dynamics import (
-    HintzHerting,
-    Structure,
-    dynamic_stiffness,
-    frequency_grid,
-)
 from foilstudy.outcome import USABLE
 from foilstudy.realisation.crumpled import Crumple
 from foilstudy.realisation.record import MACHINE_FAULTS, Quantity, read_record, write_record
 from foilstudy.realisation.scene import foil_of
+from foilstudy.realisation.structures import stress_free_structure
+from foilstudy.realisation.vibration import dynamic_quantities
 from foilstudy.shell.elements import STAGGERED
-from foilstudy.shell.sheet_model import SheetModel
-from foilstudy.shell.tangent import mass_matrix, stiffness_matrix
+from foilstudy.shell.tangent import stiffness_matrix
 from foilstudy.stiffness import (
     InterfaceSystem,
     Rings,
@@ -49,6 +44,7 @@ def respond(task: ResponseTask, crumple_path: Path, path: Path) -> None:
     if status in USABLE:
         try:
             quantities = _measure(task, values, attributes)
+            message += _beyond_validity(task, quantities)
         except MACHINE_FAULTS:
             raise
         except Exception as error:  # a study must survive any one realisation
@@ -57,6 +53,19 @@ def respond(task: ResponseTask, crumple_path: Path, path: Path) -> None:
     quantities["peak_memory"] = Quantity(_peak_memory_mb(), "MB", "peak memory of the job")
     write_record(path, quantities, {"status": status, "message": message})
     print(_summary(quantities) if "static_stiffness" in quantities else f"{status}: {message}")
+
+
+def _beyond_validity(task: ResponseTask, quantities: dict[str, Quantity]) -> str:
+    """What to say of a reduced model that does not reach to the end of the band."""
+    error, options = quantities["reduction_error"].values, task.dynamics
+    if error <= options.tolerance:
+        return ""
+    valid_to = quantities["valid_to_frequency"].values
+    return (
+        f"; dynamic stiffness only to {valid_to:.0f} Hz, as the {options.reduction} model is wrong "
+        f"by about {100 * error:.2g} % in the shown band: set dynamics.reduction: rational_krylov, "
+        "raise or remove dynamics.cutoff_hz, or lower dynamics.shown_max_hz"
+    )
 
 
 def _summary(quantities: dict[str, Quantity]) -> str:
@@ -68,9 +77,9 @@ def _summary(quantities: dict[str, Quantity]) -> str:
 def _measure(task: ResponseTask, values: dict, attributes: dict) -> dict[str, Quantity]:
     crumple = Crumple.recorded(foil_of(task), values, attributes)
     clock = time.perf_counter()
-    stiffness, static = _stress_free(crumple.sheet(crumple.points))
-    limit = _mesh_limit(task, crumple, fixed_stiffness(static.stiffness))
-    quantities = _static_quantities(static, limit) | {
+    structure = stress_free_structure(crumple)
+    limit = _mesh_limit(task, crumple, fixed_stiffness(structure.static.stiffness))
+    quantities = _static_quantities(structure.static, limit) | {
         "prestressed_stiffness": Quantity(
             prestressed_stiffness(crumple.sheet(crumple.reference), crumple.points),
             "N/m",
@@ -80,8 +89,7 @@ def _measure(task: ResponseTask, values: dict, attributes: dict) -> dict[str, Qu
     }
     seconds_static = time.perf_counter() - clock
     clock = time.perf_counter()
-    structure = Structure(stiffness, _mass(crumple), static)
-    quantities |= _dynamic_quantities(task, structure)
+    quantities |= dynamic_quantities(task.dynamics, structure, crumple.patch)
     seconds_dynamic = time.perf_counter() - clock
     return quantities | {
         "seconds_static": Quantity(seconds_static, "s", "time of the static stiffness"),
@@ -89,18 +97,11 @@ def _measure(task: ResponseTask, values: dict, attributes: dict) -> dict[str, Qu
     }
 
 
-def _stress_free(sheet: SheetModel) -> tuple[InterfaceSystem, StaticCondensation]:
-    rings = Rings.of(sheet.patch, sheet.reference)
-    system = InterfaceSystem.split(stiffness_matrix(sheet), rings)
-    return system, condense(system)
-
-
-def _mass(crumple: Crumple) -> InterfaceSystem:
-    """Mass of the crumpled foil; the areal density is that of the undeformed foil."""
-    foil, patch = crumple.foil, crumple.patch
-    areas = crumple.sheet(crumple.reference).element_areas()
-    matrix = mass_matrix(patch, foil.material.density * foil.thickness * areas)
-    return InterfaceSystem.split(matrix, Rings.of(patch, crumple.points))
+def _stress_free_stiffness(crumple: Crumple) -> np.ndarray:
+    """Axial and radial, N/m."""
+    rings = Rings.of(crumple.patch, crumple.points)
+    matrix = stiffness_matrix(crumple.sheet(crumple.points))
+    return fixed_stiffness(condense(InterfaceSystem.split(matrix, rings)).stiffness)
 
 
 def _mesh_limit(
@@ -111,12 +112,9 @@ def _mesh_limit(
     staggered = np.full(2, np.nan)
     for level in range(task.refinements):
         fine = fine.refined()
-        _, static = _stress_free(fine.sheet(fine.points))
-        levels.append(fixed_stiffness(static.stiffness))
+        levels.append(_stress_free_stiffness(fine))
         if level == 0:
-            other = replace(fine, element=STAGGERED)
-            _, static = _stress_free(other.sheet(fine.points))
-            staggered = fixed_stiffness(static.stiffness)
+            staggered = _stress_free_stiffness(replace(fine, element=STAGGERED))
     if len(levels) == 1:
         return np.full(2, np.nan), np.full(2, np.nan)
     return mesh_limit(levels, staggered)
@@ -152,34 +150,6 @@ def _static_quantities(static: StaticCondensation, limit: tuple) -> dict[str, Qu
         ("interface_dof", "interface_dof_in"),
     )
     return quantities
-
-
-def _dynamic_quantities(task: ResponseTask, structure: Structure) -> dict[str, Quantity]:
-    options = task.dynamics
-    model = HintzHerting(options.cutoff_hz).reduce(structure)
-    grid = frequency_grid(options.shown_min_hz, options.shown_max_hz, options.frequencies)
-    stiffness = dynamic_stiffness(model, grid, options.damping_percent / 100)
-    eigenfrequencies = model.clamped_eigenfrequencies(options.eigenfrequencies)
-    eigenfrequencies[eigenfrequencies > options.cutoff_hz] = np.nan
-    dims = ("definition", "direction", "frequency")
-    return {
-        "frequency": Quantity(grid, "Hz", "frequency", ("frequency",)),
-        "dynamic_stiffness_re": Quantity(
-            stiffness.real, "N/m", "real part of the dynamic stiffness", dims
-        ),
-        "dynamic_stiffness_im": Quantity(
-            stiffness.imag, "N/m", "imaginary part of the dynamic stiffness", dims
-        ),
-        "eigenfrequency": Quantity(
-            eigenfrequencies, "Hz", "eigenfrequencies with clamped rings", ("mode",)
-        ),
-        "first_eigenfrequency": Quantity(
-            eigenfrequencies[0], "Hz", "first eigenfrequency with clamped rings"
-        ),
-        "retained_modes": Quantity(
-            float(model.retained_modes), "1", "free-free modes kept by the reduction"
-        ),
-    }
 
 
 def _peak_memory_mb() -> float:

@@ -10,12 +10,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sparse
 
-from foilstudy.dynamics.reduction import INTERFACE, ReducedModel, Structure, project
+from foilstudy.dynamics.accuracy import Wanted, judged
+from foilstudy.dynamics.reduction import ReducedModel, project
+from foilstudy.dynamics.structure import INTERFACE, Structure, bordered
 from foilstudy.linalg import modes_below
-
-_RIGID_MODES = 6
 
 
 @dataclass(frozen=True)
@@ -25,9 +24,12 @@ class HintzHerting:
     Attributes
     ----------
     cutoff_hz : float
+    wanted : Wanted, optional
+        What the error is estimated for.
     """
 
     cutoff_hz: float
+    wanted: Wanted | None = None
 
     def reduce(self, structure: Structure) -> ReducedModel:
         """Reduced model of the structure.
@@ -37,26 +39,18 @@ class HintzHerting:
         SolveError
             If a factorisation or the mode search fails.
         """
-        k, m, static = structure.stiffness, structure.mass, structure.static
+        m, static = structure.mass, structure.static
         modes = modes_below(
-            _bordered(k.interior, k.coupling, k.interface),
-            _bordered(m.interior, m.coupling, m.interface),
-            limit=(2 * np.pi * self.cutoff_hz) ** 2,
+            bordered(structure.stiffness), bordered(m), limit=(2 * np.pi * self.cutoff_hz) ** 2
         )
-        elastic = modes.shapes[:, _RIGID_MODES:]
         constraint = static.constraint_modes
+        elastic = modes.shapes[:, structure.rigid_modes :]
         residualised = elastic[:-INTERFACE] - constraint @ elastic[-INTERFACE:]
-        rigid = modes.shapes[-INTERFACE:, :_RIGID_MODES]
-        inertia = m.interior @ (constraint @ rigid) + m.coupling @ rigid
-        relief = static.factor.solve(inertia)
+        relief = static.factor.solve(m.interior @ constraint + m.coupling)
+        if structure.stress_free:  # rigid motions only: inertia relief in the proper sense
+            relief = relief @ modes.shapes[-INTERFACE:, : structure.rigid_modes]
         basis = _orthonormal(np.hstack([relief, residualised]))
-        return project(structure, basis, elastic.shape[1])
-
-
-def _bordered(interior, coupling, interface) -> sparse.csr_matrix:
-    """One sparse matrix with the ring motions as last unknowns."""
-    border = sparse.csr_matrix(coupling)
-    return sparse.bmat([[interior, border], [border.T, interface]], format="csr")
+        return judged(structure, project(structure, basis, "hintz_herting"), self.wanted)
 
 
 def _orthonormal(vectors: np.ndarray) -> np.ndarray:

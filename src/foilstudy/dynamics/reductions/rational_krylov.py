@@ -1,0 +1,119 @@
+"""Block rational Krylov reduction: moments of the ring motions at a few frequencies.
+
+The interior, moved by the rings at a frequency, is (K - omega2 M)^-1 times the inertia of the
+constraint modes. A basis of its derivatives (moments) at a shift matches the dynamic stiffness
+there to twice their order: E. J. Grimme, Krylov projection methods for model reduction, PhD thesis,
+University of Illinois, 1997.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from foilstudy.dynamics.accuracy import Wanted, with_estimate
+from foilstudy.dynamics.reduction import ReducedModel, project
+from foilstudy.dynamics.response import dynamic_stiffness, relative_error
+from foilstudy.dynamics.structure import INTERFACE, Structure
+from foilstudy.linalg import BlockKrylov, SolveError, factorise
+
+_FIRST_SHIFT = 0.6
+"""Share of the highest frequency. With equally many vectors one shift is as accurate as two to
+five (docs/dynamics.md), which cost a factorisation each."""
+_MOMENTS_BETWEEN_CHECKS = 4
+_CHECKS = 48
+
+
+@dataclass(frozen=True)
+class RationalKrylov:
+    """Add moments, then shifts, until the dynamic stiffness no longer changes.
+
+    Attributes
+    ----------
+    wanted : Wanted
+        The error estimate is the change by the last four moments, so of the model without them.
+    moments_per_shift : int
+        Blocks of 12 vectors before a new shift is set, where the change is largest.
+    shifts_max : int
+    """
+
+    wanted: Wanted = field(default_factory=Wanted)
+    moments_per_shift: int = 48
+    shifts_max: int = 6
+
+    def reduce(self, structure: Structure) -> ReducedModel:
+        """Reduced model of the structure.
+
+        Raises
+        ------
+        SolveError
+            If a factorisation fails, or if the error estimate misses the tolerance with the most
+            shifts allowed.
+        """
+        wanted = self.wanted
+        frequencies = wanted.checked_at(_CHECKS)
+        space = _Space(structure)
+        before, change = None, np.full(_CHECKS, np.inf)
+        shift_hz = _FIRST_SHIFT * wanted.highest_hz
+        for _ in range(self.shifts_max):
+            for more in space.moments(shift_hz, self.moments_per_shift):
+                now = dynamic_stiffness(space.model(), frequencies, wanted.damping)
+                if before is not None:
+                    change = relative_error(before, now).reshape(-1, _CHECKS).max(axis=0)
+                if change.max() <= wanted.tolerance or not more:
+                    return with_estimate(space.model(), wanted, frequencies, change)
+                before = now
+            shift_hz = float(frequencies[change.argmax()])
+        raise SolveError(
+            f"the reduced model did not converge: the last moments of {self.shifts_max} shifts "
+            f"still change the dynamic stiffness by {change.max():.1e}"
+        )
+
+
+class _Space:
+    """Interior basis of the moments, and stiffness and inertia projected onto it as it grows."""
+
+    def __init__(self, structure: Structure):
+        self._structure = structure
+        mass = structure.mass.interior
+        self._krylov = BlockKrylov(mass)
+        self._inertia = mass @ structure.static.constraint_modes + structure.mass.coupling
+        self._stiffness, self._coupling = np.empty((0, 0)), np.empty((0, INTERFACE))
+
+    def moments(self, shift_hz: float, count: int) -> Iterator[bool]:
+        """Add moments at a frequency; yields every few, False where there is nothing to add."""
+        k, m = self._structure.stiffness.interior, self._structure.mass.interior
+        inverse = factorise((k - (2 * np.pi * shift_hz) ** 2 * m).tocsr())
+        load = self._inertia
+        for moment in range(1, count + 1):
+            load = self._krylov.append(inverse, load)
+            if not load.shape[1]:
+                yield False
+                return
+            if moment % _MOMENTS_BETWEEN_CHECKS == 0:
+                yield True
+
+    def model(self) -> ReducedModel:
+        """Reduced model with the vectors so far."""
+        self._project()
+        structure, basis = self._structure, self._krylov.vectors
+        rigid = project(structure, basis[:, :0], "rational_krylov")
+        size = INTERFACE + basis.shape[1]
+        stiffness, mass = np.zeros((size, size)), np.eye(size)
+        stiffness[:INTERFACE, :INTERFACE] = rigid.stiffness
+        stiffness[INTERFACE:, INTERFACE:] = self._stiffness
+        mass[:INTERFACE, :INTERFACE] = rigid.mass
+        mass[INTERFACE:, :INTERFACE] = self._coupling
+        mass[:INTERFACE, INTERFACE:] = self._coupling.T
+        return replace(rigid, stiffness=stiffness, mass=mass, basis=basis)
+
+    def _project(self) -> None:
+        """Take the newest vectors into the projected matrices."""
+        basis, old = self._krylov.vectors, self._stiffness.shape[0]
+        new = basis[:, old:]
+        rows = basis.T @ (self._structure.stiffness.interior @ new)
+        self._stiffness = np.block([[self._stiffness, rows[:old]], [rows[:old].T, rows[old:]]])
+        self._stiffness[old:, old:] = 0.5 * (rows[old:] + rows[old:].T)
+        self._coupling = np.vstack([self._coupling, new.T @ self._inertia])
