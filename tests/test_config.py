@@ -73,8 +73,9 @@ def test_defaults_are_the_published_case():
     assert config.sweep.realisations == 6
     assert (config.imperfection.kind, config.imperfection.amplitude_um) == ("gaussian", 10)
     assert config.mesh.element_size_mm == 5
-    assert (config.dynamics.cutoff_hz, config.dynamics.shown_max_hz) == (1000, 800)
-    assert config.dynamics.damping_percent == 5
+    assert (config.dynamics.shown_min_hz, config.dynamics.shown_max_hz) == (1, 800)
+    assert (config.dynamics.damping, config.dynamics.damping_percent) == ("modal", 5)
+    assert config.dynamics.reduction == "rational_krylov"
 
 
 def test_thesis_file_is_the_published_grid():
@@ -385,9 +386,28 @@ def test_values_that_would_share_an_id(key):
 
 
 def test_cutoff_below_the_shown_band():
-    text = problem_of(study(dynamics={"cutoff_hz": 500}))
+    text = problem_of(study(dynamics={"reduction": "hintz_herting", "cutoff_hz": 500}))
     assert text.startswith("dynamics.cutoff_hz is 500 Hz, below the shown band")
     assert "dynamics.shown_max_hz (800 Hz)" in text
+
+
+def test_cutoff_of_a_reduction_without():
+    text = problem_of(study(dynamics={"cutoff_hz": 1000}))
+    assert text.startswith("dynamics.cutoff_hz is given, but the reduction rational_krylov has no")
+    assert "dynamics.reduction: hintz_herting" in text
+
+
+@pytest.mark.parametrize(
+    "dynamics", [{"damping": "rayleigh"}, {"rayleigh_hz": [20, 500]}], ids=["missing", "idle"]
+)
+def test_rayleigh_frequencies_go_with_rayleigh_damping(dynamics):
+    text = problem_of(study(dynamics=dynamics))
+    assert text.startswith("dynamics.rayleigh_hz goes with dynamics.damping: rayleigh")
+
+
+def test_rayleigh_frequencies_rise():
+    text = problem_of(study(dynamics={"damping": "rayleigh", "rayleigh_hz": [500, 20]}))
+    assert "give two positive, rising frequencies" in text
 
 
 def test_empty_band():

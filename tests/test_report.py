@@ -187,6 +187,7 @@ def make_study(folder, cube, figures=True, crumples=()):
         variability_csv=folder / "variability.csv",
         eigenfrequency_csv=folder / "eigenfrequency_law.csv",
         stiffness_summary_csv=folder / "stiffness_summary.csv",
+        isolation_csv=folder / "isolation.csv",
         figures_dir=folder / "figures",
         crumple_paths=tuple(crumples),
     )

@@ -79,6 +79,7 @@ def test_tiny_study_has_one_job_per_step_and_realisation(tmp_path):
         "tables": 1,
         "figures_cube": 1,
         "figures_shapes": 1,
+        "figures_modes": 1,
         "report": 1,
         "study": 1,
     }

@@ -13,13 +13,16 @@ TABLES = {
     "variability": "coefficient of variation",
     "variability_law": "coefficient of variation against overlength",
     "eigenfrequency_law": "first eigenfrequency law",
+    "isolation": "foil links beside a mount",
 }
 FIGURE_FILES = expand(f"{RESULTS}/figures/{{name}}.{{kind}}", name=FIGURES, kind=["png", "svg"])
 
 # Figures share a job with those of the same input: loading what draws one costs more than drawing.
-FIGURE_JOBS = {"cube": {}, "shapes": {}}
+# Those that read responses wait for all of them; the shapes are drawn without.
+FIGURE_JOBS = {"cube": {}, "shapes": {}, "modes": {}}
 for name, figure in FIGURES.items():
-    FIGURE_JOBS["cube" if "cube" in figure.needs else "shapes"][name] = figure
+    source = "modes" if "response_paths" in figure.needs else "shapes"
+    FIGURE_JOBS["cube" if "cube" in figure.needs else source][name] = figure
 
 
 rule cube:
@@ -76,7 +79,8 @@ for source, figures in FIGURE_JOBS.items():
             f"figures_{source}"
         input:
             cube=rules.cube.output,
-            crumples=CRUMPLES if source == "shapes" else [],
+            crumples=CRUMPLES if source != "cube" else [],
+            responses=RESPONSES if source == "modes" else [],
         output:
             [
                 report(
@@ -111,6 +115,7 @@ rule report:
         tables=rules.tables.output,
         figures=FIGURE_FILES,
         crumples=CRUMPLES,
+        responses=RESPONSES,
     output:
         report(
             f"{RESULTS}/report.html",

@@ -13,8 +13,11 @@ write_report(
         variability_csv=results / "variability.csv",
         eigenfrequency_csv=results / "eigenfrequency_law.csv",
         stiffness_summary_csv=results / "stiffness_summary.csv",
+        isolation_csv=results / "isolation.csv",
         figures_dir=results / "figures",
         crumple_paths=crumples,
+        # the response of a realisation lies beside its crumple
+        response_paths=[crumple.with_name("response.nc") for crumple in crumples],
         benchmarks_dir=results / "benchmarks",
     ),
     report_html,

@@ -5,6 +5,8 @@ The model is the one source of the defaults, of ``config/schema.json`` and of th
 """
 
 from .._errors import ConfigError
+from .export import Export
+from .isolation import Isolation
 from .load import load_config
 from .mesh import Mesh
 from .model import Cell, StudyConfig
@@ -27,7 +29,9 @@ __all__ = [
     "CrumpleTask",
     "RefineTask",
     "Dynamics",
+    "Export",
     "Imperfection",
+    "Isolation",
     "Material",
     "Mesh",
     "Relaxation",

@@ -46,7 +46,8 @@ _RULES = """\
   `sheet.gap_height_mm`; no value twice (values are told apart to three decimals).
 - Thickness at most 1/20 of the radius, where thin-shell theory ends.
 - At least 24 elements around the cylinder and 8 along the shortest one, at most a million in all.
-- `dynamics.shown_min_hz` below `dynamics.shown_max_hz`, and that not above `dynamics.cutoff_hz`.
+- `dynamics.shown_min_hz` below `dynamics.shown_max_hz`, and that not above `dynamics.cutoff_hz`;
+  `cutoff_hz` only with a modal reduction, `rayleigh_hz` only with Rayleigh damping.
 
 Numbers follow YAML 1.2 (`1e-6` is a number, `010` is ten), and a key given twice is an error.
 """

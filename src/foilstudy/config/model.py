@@ -9,6 +9,8 @@ from functools import cached_property
 from pydantic import Field, model_validator
 
 from .._errors import ConfigError
+from .export import Export
+from .isolation import Isolation
 from .mesh import Mesh, mesh_problems
 from .sections import (
     Dynamics,
@@ -99,6 +101,10 @@ class StudyConfig(Section):
     relaxation: Relaxation = Field(default_factory=Relaxation, description="Dynamic relaxation.")
     stiffness: Stiffness = Field(default_factory=Stiffness, description="Static stiffness.")
     dynamics: Dynamics = Field(default_factory=Dynamics, description="Dynamic stiffness.")
+    isolation: Isolation = Field(
+        default_factory=Isolation, description="Isolated payload with foil links."
+    )
+    export: Export = Field(default_factory=Export, description="Files for other tools.")
     report: Report = Field(default_factory=Report, description="Report page.")
 
     @model_validator(mode="after")

@@ -15,6 +15,7 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from ..materials import MATERIALS
 
+MODAL_REDUCTIONS = ("hintz_herting", "craig_bampton")
 CORRELATION_LENGTH_DEFAULT_MM = 15.0
 CONSTANTS = ("youngs_modulus_mpa", "poisson_ratio", "density_kg_m3", "yield_stress_mpa")
 
@@ -255,23 +256,53 @@ class Stiffness(Section):
 class Dynamics(Section):
     """Dynamic stiffness between the end rings."""
 
-    cutoff_hz: float = unit_field(
-        "Hz", "Free modes up to this frequency are kept.", 1000.0, gt=0, le=1e6
+    reduction: Literal["rational_krylov", "hintz_herting", "craig_bampton", "guyan"] = unit_field(
+        "choice",
+        "How the foil is reduced: `rational_krylov` chooses its order from the tolerance; "
+        "`hintz_herting` (as published) and `craig_bampton` keep the modes up to `cutoff_hz`; "
+        "`guyan` is quasi-static.",
+        "rational_krylov",
+    )
+    tolerance: float = unit_field(
+        "1",
+        "Largest relative error of the reduction in the shown band, by its own estimate; beyond "
+        "the frequency up to which the estimate meets it, the dynamic stiffness is left out.",
+        1e-3,
+        ge=1e-6,
+        lt=1,
+    )
+    cutoff_hz: float | None = unit_field(
+        "Hz",
+        "Modes up to this frequency are kept, only for `hintz_herting` and `craig_bampton`; there "
+        "the default is twice `shown_max_hz`, raised until the tolerance is met.",
+        None,
+        gt=0,
+        le=1e6,
     )
     shown_min_hz: float = unit_field("Hz", "Lowest frequency computed.", 1.0, ge=0.01, le=1e6)
-    shown_max_hz: float = unit_field(
-        "Hz", "Highest frequency computed, below the cut-off.", 800.0, gt=0, le=1e6
-    )
+    shown_max_hz: float = unit_field("Hz", "Highest frequency computed.", 800.0, gt=0, le=1e6)
     frequencies: int = unit_field(
         "1", "Number of frequencies, spaced logarithmically.", 200, ge=2, le=100_000
     )
-    damping_percent: float = unit_field("%", "Modal damping ratio.", 5.0, gt=0, lt=100)
+    damping: Literal["modal", "structural", "rayleigh"] = unit_field(
+        "choice",
+        "`modal`: the same share of the critical damping in every mode, as published; "
+        "`structural`: a loss factor of twice that share; `rayleigh`: that share at `rayleigh_hz`.",
+        "modal",
+    )
+    damping_percent: float = unit_field("%", "Share of the critical damping.", 5.0, gt=0, lt=100)
+    rayleigh_hz: tuple[float, float] | None = unit_field(
+        "list of Hz", "Two frequencies, rising, only for `rayleigh` damping.", None, strict=False
+    )
     eigenfrequencies: int = unit_field(
         "1", "Number of eigenfrequencies with both rings clamped.", 20, ge=1, le=1000
     )
+    mode_shapes: int = unit_field(
+        "1", "Mode shapes of these that are kept, for the report and other tools.", 6, ge=0, le=100
+    )
 
     @model_validator(mode="after")
-    def _band_below_cutoff(self) -> Dynamics:
+    def _fits_together(self) -> Dynamics:
         problems = []
         if self.shown_min_hz >= self.shown_max_hz:
             problems.append(
@@ -279,15 +310,35 @@ class Dynamics(Section):
                 f"dynamics.shown_max_hz ({self.shown_max_hz:g} Hz); lower the first or raise the "
                 "second."
             )
-        if self.cutoff_hz < self.shown_max_hz:
+        if self.cutoff_hz is not None and self.reduction not in MODAL_REDUCTIONS:
+            problems.append(
+                f"dynamics.cutoff_hz is given, but the reduction {self.reduction} has no cut-off; "
+                "remove it, or set dynamics.reduction: hintz_herting."
+            )
+        elif self.cutoff_hz is not None and self.cutoff_hz < self.shown_max_hz:
             problems.append(
                 f"dynamics.cutoff_hz is {self.cutoff_hz:g} Hz, below the shown band, which ends at "
                 f"dynamics.shown_max_hz ({self.shown_max_hz:g} Hz); raise the cut-off (to "
-                f"{1.25 * self.shown_max_hz:g} Hz, say) or lower shown_max_hz."
+                f"{2 * self.shown_max_hz:g} Hz, say), remove it, or lower shown_max_hz."
             )
+        problems += self._rayleigh_problems()
         if problems:
             raise ValueError("\n".join(problems))
         return self
+
+    def _rayleigh_problems(self) -> list[str]:
+        wanted, given = self.damping == "rayleigh", self.rayleigh_hz is not None
+        if wanted != given:
+            return [
+                "dynamics.rayleigh_hz goes with dynamics.damping: rayleigh, e.g. [20, 800]; "
+                f"{'give' if wanted else 'remove'} it."
+            ]
+        if given and not 0 < self.rayleigh_hz[0] < self.rayleigh_hz[1]:
+            return [
+                f"dynamics.rayleigh_hz is {list(self.rayleigh_hz)} Hz; give two positive, rising "
+                "frequencies."
+            ]
+        return []
 
 
 class Report(Section):

@@ -3,6 +3,13 @@
 Importing this package does not import matplotlib, so that a workflow can read `FIGURES` cheaply.
 """
 
-from foilstudy.figures.registry import FIGURES, FigureSpec, draw_figure, draw_figures, save
+from foilstudy.figures.registry import (
+    FIGURES,
+    FigureInputs,
+    FigureSpec,
+    draw_figure,
+    draw_figures,
+    save,
+)
 
-__all__ = ["FIGURES", "FigureSpec", "draw_figure", "draw_figures", "save"]
+__all__ = ["FIGURES", "FigureInputs", "FigureSpec", "draw_figure", "draw_figures", "save"]

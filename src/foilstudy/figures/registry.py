@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
 from pathlib import Path
@@ -23,7 +23,7 @@ class FigureSpec:
     module : str
         Module of this package whose ``draw`` makes the figure.
     needs : tuple of str
-        Inputs of ``draw``: ``cube`` (the open cube) and/or ``crumple_paths``.
+        Inputs of ``draw``: ``cube`` (the open cube), ``crumple_paths``, ``response_paths``.
     options : mapping
         Further keyword arguments of ``draw``.
     """
@@ -122,6 +122,37 @@ FIGURES: dict[str, FigureSpec] = {
         ("cube",),
         {"definition": "relative"},
     ),
+    "design_chart": FigureSpec(
+        "Which foil stays soft beside the mount",
+        "Thickness against overlength. Number and colour: highest frequency up to which the "
+        "transfer stiffness of all links is within the allowed share of the mount's, median of "
+        "the realisations, in brackets the least favourable one; ≥: to the end of the computed "
+        "band. Hatched: exceeded at rest already, with the static share. Frame: every realisation "
+        "keeps the share as far up as asked for. Left: mount without mass; right: mount with a "
+        "resonance of its own, above which it is soft itself.",
+        "design_chart",
+        ("cube",),
+    ),
+    "transmissibility": FigureSpec(
+        "Transmissibility of a payload on its mounts",
+        "Motion of the payload per motion of the floor, without links and with links of several "
+        "thicknesses at the middle overlength of the study. Line and band: median, smallest and "
+        "largest of the realisations. Left: mount without mass; right: mount with a resonance of "
+        "its own.",
+        "transmissibility",
+        ("cube",),
+    ),
+    "convergence_high_frequency": FigureSpec(
+        "Do the overlengths become one curve?",
+        "Top: magnitude of the relative stiffness of each overlength (mean over seeds of its "
+        "logarithm) over the mean of all overlengths. Dark band: one standard deviation of the "
+        "seeds of an overlength to either side. Bottom: standard deviation over overlengths, less "
+        "what few seeds add to their means, over that of the seeds, variances averaged over an "
+        "octave. Where that stays at most 1 (dotted) up to the end, a vertical line marks the "
+        "beginning. Shaded light: fewer than four elements in a bending wave of the flat foil.",
+        "convergence_high_frequency",
+        ("cube",),
+    ),
     "eigenfrequency_law": FigureSpec(
         "First eigenfrequency against reference height",
         "First eigenfrequency with both rings clamped. Small dots: realisations; large: mean; "
@@ -129,6 +160,26 @@ FIGURES: dict[str, FigureSpec] = {
         "exponent, drawn through the middle of the data. Brackets: 95 % confidence interval.",
         "eigenfrequency_law",
         ("cube",),
+    ),
+    "modal_density": FigureSpec(
+        "Modal density",
+        "Modes per Hz with both rings held, counted over half an octave about each frequency. Line "
+        "and band: median, smallest and largest of the realisations; where one of them has no mode "
+        "there is a gap. Between the dashed lines: a flat plate of the same foil, smallest to "
+        "largest area, (area / 2) √(ρt / D) with D = Et³ / 12(1 − ν²). Shaded: fewer than four "
+        "elements in a bending wave of that plate, so that the mesh decides how many modes there "
+        "are.",
+        "modal_density",
+        ("cube",),
+    ),
+    "mac_seeds": FigureSpec(
+        "First modes of two realisations compared",
+        "Modal assurance criterion between the first modes of two seeds of one configuration: 1 "
+        "for the same motion of the material points, 0 for unrelated ones. The folds of the seeds "
+        "lie at different angles about the axis; neither is turned to match the other. Above: the "
+        "highest criterion of each mode with any of the other seed's, over all pairs of seeds.",
+        "mac_seeds",
+        ("crumple_paths", "response_paths"),
     ),
     "seeds": FigureSpec(
         "One configuration, different imperfections",
@@ -184,17 +235,29 @@ def _save_one(savefig, path: Path, metadata: dict) -> Path:
     return path
 
 
-def draw_figure(figure_id: str, cube_path, crumple_paths: Iterable, stem) -> tuple[Path, Path]:
+@dataclass(frozen=True)
+class FigureInputs:
+    """Files that the figures of one study are drawn from; none is opened without need.
+
+    Attributes
+    ----------
+    cube_path : path of cube.nc
+    crumple_paths, response_paths : paths of the records of the realisations
+    """
+
+    cube_path: Path
+    crumple_paths: Sequence[Path] = ()
+    response_paths: Sequence[Path] = ()
+
+
+def draw_figure(figure_id: str, files: FigureInputs, stem) -> tuple[Path, Path]:
     """Draw and save one figure.
 
     Parameters
     ----------
     figure_id
         A key of `FIGURES`.
-    cube_path : path of cube.nc
-        Not opened by a figure that does not need it.
-    crumple_paths : paths of crumple.nc files
-        Not opened by a figure that does not need them.
+    files : FigureInputs
     stem : path without suffix
 
     Returns
@@ -209,31 +272,27 @@ def draw_figure(figure_id: str, cube_path, crumple_paths: Iterable, stem) -> tup
     if figure_id not in FIGURES:
         raise KeyError(f"no figure {figure_id!r}: choose one of {', '.join(FIGURES)}")
     spec = FIGURES[figure_id]
-    inputs = {"crumple_paths": tuple(crumple_paths)}
+    inputs = {"crumple_paths": files.crumple_paths, "response_paths": files.response_paths}
     if "cube" not in spec.needs:
         return save(spec.draw(**inputs), stem)
     import xarray as xr
 
-    with xr.open_dataset(cube_path) as cube:
+    with xr.open_dataset(files.cube_path) as cube:
         return save(spec.draw(cube=cube, **inputs), stem)
 
 
-def draw_figures(
-    figure_ids: Iterable[str], cube_path, crumple_paths: Iterable, out_dir
-) -> list[Path]:
+def draw_figures(figure_ids: Iterable[str], files: FigureInputs, out_dir) -> list[Path]:
     """Draw and save figures as ``<out_dir>/<id>.png`` and ``.svg``; return the paths.
 
     Parameters
     ----------
     figure_ids
         Keys of `FIGURES`.
-    cube_path, crumple_paths
-        As for `draw_figure`.
+    files : FigureInputs
     out_dir : path of the folder
     """
-    crumple_paths = tuple(crumple_paths)
     return [
         path
         for figure_id in figure_ids
-        for path in draw_figure(figure_id, cube_path, crumple_paths, Path(out_dir) / figure_id)
+        for path in draw_figure(figure_id, files, Path(out_dir) / figure_id)
     ]

@@ -10,7 +10,9 @@ from foilstudy.linalg.factorisation import Factorisation
 _ROOM = 384
 """Vectors for which memory is taken at once."""
 _DEPENDENT = 1e-20
-"""Squared length left over, relative to before, below which a direction counts as known."""
+"""Squared length, of 1 at first, below which a direction counts as known."""
+_KEPT, _PASSES_MAX = 0.1, 3
+"""Squared length left by an orthogonalisation that need not be repeated."""
 
 
 class BlockKrylov:
@@ -51,9 +53,13 @@ class BlockKrylov:
         """
         block = inverse.solve(load)
         block /= np.sqrt(np.einsum("ij,ij->j", block, self._mass @ block))
-        for _ in range(2):
-            block = block - self.vectors @ (self.vectors.T @ (self._mass @ block))
-            block = _orthonormal(block, self._mass)
+        # most of it lies in the last two blocks: without that, one pass over all of them will do
+        block = self._without(block, max(0, self.size - 2 * load.shape[1]))
+        block, _ = _orthonormal(block, self._mass)
+        for _ in range(_PASSES_MAX):
+            block, smallest = _orthonormal(self._without(block), self._mass)
+            if smallest > _KEPT:
+                break
         end = self.size + block.shape[1]
         if end > self._vectors.shape[1]:
             room = np.empty_like(self._vectors)
@@ -61,6 +67,11 @@ class BlockKrylov:
         self._vectors[:, self.size : end] = block
         self.size = end
         return self._mass @ block
+
+    def _without(self, block: np.ndarray, first: int = 0) -> np.ndarray:
+        """The block without its part in the basis from vector `first` on."""
+        known = self.vectors[:, first:]
+        return block - known @ (known.T @ (self._mass @ block))
 
 
 def mass_orthonormal(block: np.ndarray, mass: sparse.csr_matrix, against: np.ndarray) -> np.ndarray:
@@ -82,13 +93,17 @@ def mass_orthonormal(block: np.ndarray, mass: sparse.csr_matrix, against: np.nda
     for _ in range(2):
         if against.shape[1]:
             block = block - against @ np.linalg.solve(gram, against.T @ (mass @ block))
-        block = _orthonormal(block, mass)
+        block, _ = _orthonormal(block, mass)
     return block
 
 
-def _orthonormal(block: np.ndarray, mass: sparse.csr_matrix) -> np.ndarray:
-    """Mass-orthonormal basis of the columns, those that are dependent left out."""
-    gram = block.T @ (mass @ block)
-    values, vectors = np.linalg.eigh(gram)
-    kept = values > max(_DEPENDENT, 1e-13 * values[-1])
-    return block @ (vectors[:, kept] / np.sqrt(values[kept]))
+def _orthonormal(block: np.ndarray, mass: sparse.csr_matrix) -> tuple[np.ndarray, float]:
+    """Mass-orthonormal basis of the columns, those that are dependent left out.
+
+    Returns also the smallest squared length of what is kept.
+    """
+    if not block.shape[1]:
+        return block, 1.0
+    values, vectors = np.linalg.eigh(block.T @ (mass @ block))
+    kept = values > _DEPENDENT
+    return block @ (vectors[:, kept] / np.sqrt(values[kept])), values[kept].min(initial=1.0)

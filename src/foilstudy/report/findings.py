@@ -9,7 +9,7 @@ import xarray as xr
 from foilstudy.outcome import STATUSES
 from foilstudy.reference import Published
 from foilstudy.report.health import Health
-from foilstudy.report.laws import Exponent
+from foilstudy.report.laws import SIGNIFICANT, Exponent
 from foilstudy.report.numerals import (
     fixed,
     nominal,
@@ -189,15 +189,30 @@ def eigenfrequency_findings(law: pd.DataFrame, cube: xr.Dataset) -> list[str]:
         exponent = Exponent(row.exponent, row.exponent_se, row.exponent_low, row.exponent_high)
         text = f"{fixed(exponent.value)}{exponent.margin} at {nominal(row.thickness_um)} µm"
         if math.isfinite(row.published_exponent):
-            text += f" (published {fixed(row.published_exponent)})"
+            text += f" (published {fixed(row.published_exponent)}{_side(exponent, row)})"
         exponents.append(text)
     if exponents:
         sentences.append(
-            f"It follows the reference height with the exponent {', '.join(exponents)}."
+            f"It goes with the reference height to the power of {', '.join(exponents)}"
+            f"{'; ± is the 95 % interval' if law['exponent_low'].notna().any() else ''}."
         )
+        bent = law.loc[law["lack_of_fit_p"] < SIGNIFICANT, "thickness_um"]
+        if len(bent):
+            sentences.append(
+                f"At {', '.join(map(nominal, bent))} µm the heights depart from a power law by "
+                "more than seeds explain, and the interval is too narrow."
+            )
     elif spread:
         sentences.append("One reference height alone determines no exponent.")
     return sentences
+
+
+def _side(exponent: Exponent, row) -> str:
+    """Whether a published exponent lies in the interval of ours; empty without an interval."""
+    if not math.isfinite(exponent.low):
+        return ""
+    inside = exponent.low <= row.published_exponent <= exponent.high
+    return ", inside the interval" if inside else ", outside it"
 
 
 def shape_findings(cube: xr.Dataset, reference: Published) -> list[str]:

@@ -20,13 +20,16 @@ from foilstudy.report import (
     equilibrium,
     exponents,
     findings,
+    isolation,
     laws,
     mesh,
+    modes,
     numerals,
     prestress,
     viewer,
 )
 from foilstudy.report.health import assess
+from foilstudy.statistics.isolation import isolation_options
 
 TEMPLATES = Path(__file__).parent / "templates"
 
@@ -36,8 +39,9 @@ SECTIONS = {
     "static": ("stiffness_map", "fit_quality"),
     "prestress": ("prestressed",),
     "variability": ("variability",),
-    "dynamic": ("dynamic_stiffness",),
-    "eigenfrequency": ("eigenfrequency_law",),
+    "dynamic": ("dynamic_stiffness", "convergence_high_frequency"),
+    "eigenfrequency": ("eigenfrequency_law", "modal_density", "mac_seeds"),
+    "isolation": ("design_chart", "transmissibility"),
     "mesh": ("mesh_error", "energy"),
     "health": ("history",),
 }
@@ -57,12 +61,14 @@ class ReportInputs:
     ----------
     cube_path
         The study's ``cube.nc``.
-    powerlaw_csv, variability_csv, eigenfrequency_csv, stiffness_summary_csv
+    powerlaw_csv, variability_csv, eigenfrequency_csv, stiffness_summary_csv, isolation_csv
         The tables of the same cube.
     figures_dir
         Folder of ``<figure id>.png`` and ``.svg``; it may be empty.
     crumple_paths
         ``crumple.nc`` of the realisations; a handful is chosen for the 3-D view.
+    response_paths
+        ``response.nc`` of the realisations, for their modes; it may be empty.
     benchmarks_dir
         Folder of the workflow's benchmark tables; None when there is none.
     """
@@ -72,8 +78,10 @@ class ReportInputs:
     variability_csv: Path
     eigenfrequency_csv: Path
     stiffness_summary_csv: Path
+    isolation_csv: Path
     figures_dir: Path
     crumple_paths: Sequence[Path]
+    response_paths: Sequence[Path] = ()
     benchmarks_dir: Path | None = None
 
 
@@ -131,13 +139,14 @@ def _environment() -> jinja2.Environment:
 
 
 def _content(inputs: ReportInputs, cube: xr.Dataset, folder: Path) -> dict:
-    powerlaw, summary, variability, eigenfrequency = (
+    powerlaw, summary, variability, eigenfrequency, links = (
         pd.read_csv(path)
         for path in (
             inputs.powerlaw_csv,
             inputs.stiffness_summary_csv,
             inputs.variability_csv,
             inputs.eigenfrequency_csv,
+            inputs.isolation_csv,
         )
     )
     config = yaml.safe_load(cube.attrs.get("config", "")) or {}
@@ -145,7 +154,8 @@ def _content(inputs: ReportInputs, cube: xr.Dataset, folder: Path) -> dict:
     settling = equilibrium.assess_equilibrium(cube, config)
     mesh_errors = mesh.assess_mesh(cube)
     read_laws = laws.read_laws(powerlaw, summary)
-    shapes = viewer.viewer_data(viewer.choose_shapes(inputs.crumple_paths))
+    chosen = viewer.choose_shapes(inputs.crumple_paths)
+    shapes = viewer.viewer_data(chosen, inputs.response_paths)
     script = (TEMPLATES / "viewer.js").read_text("utf-8")
     return {
         "title": config.get("report", {}).get("title", "Crumpled foil"),
@@ -161,8 +171,10 @@ def _content(inputs: ReportInputs, cube: xr.Dataset, folder: Path) -> dict:
         "relaxed_words": prestress.relaxed_findings(cube),
         "relaxed_rows": prestress.relaxed_rows(cube),
         "variability_words": findings.variability_findings(variability),
-        "dynamic_words": findings.dynamic_findings(cube),
-        "eigenfrequency_words": findings.eigenfrequency_findings(eigenfrequency, cube),
+        "dynamic_words": findings.dynamic_findings(cube) + modes.overlength_findings(cube),
+        "eigenfrequency_words": findings.eigenfrequency_findings(eigenfrequency, cube)
+        + modes.modal_density_findings(cube),
+        "isolation_words": isolation.isolation_findings(links, isolation_options(cube)),
         "bend_words": laws.bend_sentence(powerlaw),
         "fit_words": laws.fit_findings(powerlaw),
         "mesh": mesh_errors,
@@ -276,6 +288,7 @@ def _files(inputs: ReportInputs, folder: Path) -> list[tuple[str, str, str]]:
         (inputs.stiffness_summary_csv, "static stiffness of every configuration"),
         (inputs.variability_csv, "coefficients of variation"),
         (inputs.eigenfrequency_csv, "exponents of the first eigenfrequency"),
+        (inputs.isolation_csv, "links of every configuration beside a mount"),
         (inputs.figures_dir, "the figures as PNG and SVG"),
     ]
     links = []

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from foilstudy.files import written_whole
 from foilstudy.statistics.eigenfrequency import eigenfrequency_table
+from foilstudy.statistics.isolation import isolation_table
 from foilstudy.statistics.powerlaw import powerlaw_table
 from foilstudy.statistics.summary import stiffness_summary
 from foilstudy.statistics.variability import variability_law_table, variability_table
@@ -16,6 +17,7 @@ TABLES = {
     "variability": variability_table,
     "variability_law": variability_law_table,
     "eigenfrequency_law": eigenfrequency_table,
+    "isolation": isolation_table,
 }
 """File stem of each table and the function of the cube that makes it."""
 

@@ -22,7 +22,7 @@ from foilstudy.linalg import BlockKrylov, SolveError, factorise
 _FIRST_SHIFT = 0.6
 """Share of the highest frequency. With equally many vectors one shift is as accurate as two to
 five (docs/dynamics.md), which cost a factorisation each."""
-_MOMENTS_BETWEEN_CHECKS = 4
+_MOMENTS_BETWEEN_CHECKS = 2
 _CHECKS = 48
 
 
@@ -33,7 +33,7 @@ class RationalKrylov:
     Attributes
     ----------
     wanted : Wanted
-        The error estimate is the change by the last four moments, so of the model without them.
+        The error estimate is the change by the last two moments, so of the model without them.
     moments_per_shift : int
         Blocks of 12 vectors before a new shift is set, where the change is largest.
     shifts_max : int
@@ -83,7 +83,10 @@ class _Space:
         self._stiffness, self._coupling = np.empty((0, 0)), np.empty((0, INTERFACE))
 
     def moments(self, shift_hz: float, count: int) -> Iterator[bool]:
-        """Add moments at a frequency; yields every few, False where there is nothing to add."""
+        """Add moments at a frequency; yields False where there is nothing left to add.
+
+        Every few moments, but not before there are as many vectors as modes below the shift.
+        """
         k, m = self._structure.stiffness.interior, self._structure.mass.interior
         inverse = factorise((k - (2 * np.pi * shift_hz) ** 2 * m).tocsr())
         load = self._inertia
@@ -92,7 +95,8 @@ class _Space:
             if not load.shape[1]:
                 yield False
                 return
-            if moment % _MOMENTS_BETWEEN_CHECKS == 0:
+            enough = self._krylov.size > inverse.negative_eigenvalues
+            if enough and moment % _MOMENTS_BETWEEN_CHECKS == 0:
                 yield True
 
     def model(self) -> ReducedModel:

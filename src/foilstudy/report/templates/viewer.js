@@ -1,4 +1,4 @@
-// Interactive view of the crumpled shapes: plain WebGL 1, no library, no request.
+// Interactive view of the crumpled shapes and their modes: plain WebGL 1, no library, no request.
 "use strict";
 (function () {
   const root = document.getElementById("viewer");
@@ -8,6 +8,10 @@
   const choice = root.querySelector("select");
   const morph = root.querySelector("input[type=range]");
   const note = root.querySelector("output");
+  const vibration = root.querySelector("[data-act=vibration]");
+  const modeChoice = root.querySelector("[data-act=mode]");
+  const play = root.querySelector("[data-act=play]");
+  const amplitude = root.querySelector("[data-act=amplitude]");
   const gl = canvas.getContext("webgl", { antialias: true, preserveDrawingBuffer: true });
   if (!gl) return; // the still picture stays
 
@@ -49,6 +53,9 @@
   const DISTANCE = 7;
   const home = { turn: 0.5, tilt: 0.35, zoom: 1 };
   const view = Object.assign({}, home);
+  const SECONDS_PER_CYCLE = 2;
+  const stillness = window.matchMedia("(prefers-reduced-motion: reduce)");
+  const swing = { playing: false, phase: 0, last: 0 };
   let program, uniforms, buffers, mesh, waiting = false;
 
   function bytes(text) {
@@ -59,6 +66,28 @@
     const raw = new DataView(bytes(text).buffer);
     const out = new Float32Array(raw.byteLength / 2);
     for (let i = 0; i < out.length; i++) out[i] = raw.getInt16(2 * i, true) * quantum;
+    return out;
+  }
+
+  // Displacement of every node from the mode's own grid, which spans that of the shape evenly.
+  function modeAt(mode, rows, columns) {
+    const quanta = new Int8Array(bytes(mode.displacement).buffer);
+    const out = new Float32Array(3 * rows * columns);
+    for (let i = 0; i < rows; i++) {
+      const down = i * (mode.rows - 1) / (rows - 1);
+      const top = Math.min(Math.floor(down), mode.rows - 2), v = down - top;
+      for (let j = 0; j < columns; j++) {
+        const across = j * mode.columns / columns, left = Math.floor(across), u = across - left;
+        const right = (left + 1) % mode.columns;
+        const at = (row, column) => 3 * (row * mode.columns + column);
+        for (let c = 0; c < 3; c++) {
+          const upper = (1 - u) * quanta[at(top, left) + c] + u * quanta[at(top, right) + c];
+          const lower = (1 - u) * quanta[at(top + 1, left) + c] +
+            u * quanta[at(top + 1, right) + c];
+          out[3 * (i * columns + j) + c] = ((1 - v) * upper + v * lower) / 127;
+        }
+      }
+    }
     return out;
   }
 
@@ -133,21 +162,66 @@
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, buffers.rings);
     gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, new Uint16Array(rings), gl.STATIC_DRAW);
     gl.uniform1f(uniforms.range, data.range_mm * 1e-3 / shape.radius);
-    note.textContent = "Radial displacement " + signed(shape.lowest_mm) + " to " +
-      signed(shape.highest_mm) + " mm.";
+    const wanted = Math.max(0, modeChoice.selectedIndex);
+    modeChoice.replaceChildren(new Option("none"), ...shape.modes.map((mode, k) =>
+      new Option(k + 1 + ": " + mode.frequency.toPrecision(3) + " Hz")));
+    modeChoice.selectedIndex = wanted <= shape.modes.length ? wanted : 0;
+    vibration.hidden = shape.modes.length === 0;
+    loadMode();
+  }
+
+  // Take the chosen mode of the chosen realisation, or none.
+  function loadMode() {
+    const shape = data.shapes[choice.selectedIndex];
+    const mode = shape.modes[modeChoice.selectedIndex - 1];
+    mesh.mode = mode ? modeAt(mode, shape.rows, shape.columns) : null;
+    if (mode) morph.value = 100; // the modes are those of the crumple
+    else swing.playing = false;
+    play.disabled = amplitude.disabled = !mode;
+    describe();
     deform();
+  }
+
+  function describe() {
+    const shape = data.shapes[choice.selectedIndex];
+    const mode = shape.modes[modeChoice.selectedIndex - 1];
+    let text = "Radial displacement " + signed(shape.lowest_mm) + " to " +
+      signed(shape.highest_mm) + " mm.";
+    if (mode) {
+      text += " Mode " + modeChoice.selectedIndex + " at " + mode.frequency.toPrecision(3) +
+        " Hz, rings held: slowed to one cycle in " + SECONDS_PER_CYCLE +
+        " s, its largest movement drawn as " + amplitude.value + " mm.";
+    }
+    note.textContent = text;
+    amplitude.setAttribute("aria-valuetext", amplitude.value + " mm");
+    play.textContent = swing.playing ? "Stop" : "Start";
+  }
+
+  function start(playing) {
+    swing.playing = playing;
+    swing.last = 0;
+    describe();
+    redraw();
   }
 
   // Positions between the cylinder and the crumple, with area-weighted node normals.
   function deform() {
     const s = Number(morph.value) / 100;
-    const { crumple, reference, triangles } = mesh;
+    const { crumple, reference, triangles, mode } = mesh;
+    const radius = data.shapes[choice.selectedIndex].radius;
+    const moved = mode ? Math.sin(swing.phase) * Number(amplitude.value) * 1e-3 / radius : 0;
     const position = new Float32Array(crumple.length);
     const normal = new Float32Array(crumple.length);
     const displacement = new Float32Array(crumple.length / 3);
     for (let i = 0; i < position.length; i++) {
       position[i] = reference[i] + s * (crumple[i] - reference[i]);
     }
+    let low = Infinity, high = -Infinity;
+    for (let k = 2; k < position.length; k += 3) {
+      low = Math.min(low, position[k]);
+      high = Math.max(high, position[k]);
+    }
+    if (mode) for (let i = 0; i < position.length; i++) position[i] += moved * mode[i];
     for (let n = 0; n < displacement.length; n++) {
       displacement[n] = Math.hypot(position[3 * n], position[3 * n + 1]) -
         Math.hypot(reference[3 * n], reference[3 * n + 1]);
@@ -169,11 +243,6 @@
       const length = Math.hypot(normal[k], normal[k + 1], normal[k + 2]) || 1;
       for (let c = 0; c < 3; c++) normal[k + c] /= length;
     }
-    let low = Infinity, high = -Infinity;
-    for (let k = 2; k < position.length; k += 3) {
-      low = Math.min(low, position[k]);
-      high = Math.max(high, position[k]);
-    }
     for (let k = 2; k < position.length; k += 3) position[k] -= (low + high) / 2;
     mesh.halfWidth = Math.max(1.3, 0.55 + 0.5 * (high - low)); // the tall cylinder fits as well
     for (const [name, values] of Object.entries({ position, normal, displacement })) {
@@ -191,8 +260,15 @@
     }
   }
 
-  function draw() {
+  function draw(now) {
     waiting = false;
+    if (swing.playing) {
+      // a page that was hidden for a while goes on where it was
+      const elapsed = swing.last ? Math.min(now - swing.last, 100) : 0;
+      swing.phase = (swing.phase + 2e-3 * Math.PI * elapsed / SECONDS_PER_CYCLE) % (2 * Math.PI);
+      swing.last = now;
+      deform(); // asks for the next frame
+    }
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
     const width = Math.round(canvas.clientWidth * ratio);
     const height = Math.round(canvas.clientHeight * ratio);
@@ -281,7 +357,22 @@
   root.querySelector("[data-act=farther]").addEventListener("click", () => zoom(0.8));
   root.querySelector("[data-act=reset]").addEventListener("click", reset);
   choice.addEventListener("change", load);
-  morph.addEventListener("input", deform);
+  morph.addEventListener("input", () => {
+    if (mesh.mode) {
+      modeChoice.selectedIndex = 0;
+      loadMode();
+    } else deform();
+  });
+  modeChoice.addEventListener("change", () => {
+    if (stillness.matches && !swing.playing) swing.phase = Math.PI / 2; // shown, not moved
+    else swing.playing = true;
+    loadMode();
+  });
+  play.addEventListener("click", () => start(!swing.playing));
+  amplitude.addEventListener("input", () => {
+    describe();
+    deform();
+  });
   new ResizeObserver(redraw).observe(canvas);
   canvas.addEventListener("webglcontextlost", (event) => {
     event.preventDefault();

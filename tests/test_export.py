@@ -1,0 +1,443 @@
+"""Each export format, read back by its own library."""
+
+import csv
+from types import SimpleNamespace
+
+import meshio
+import numpy as np
+import pytest
+import pyuff
+import xarray as xr
+from conftest import DIAMETER, FOIL, GAP_HEIGHT, THICKNESS, cylinder
+from scipy.io import loadmat
+
+from foilstudy.config import Export, load_config
+from foilstudy.dynamics import (
+    DEFINITIONS,
+    HintzHerting,
+    ModalDamping,
+    RayleighDamping,
+    StructuralDamping,
+    directional_stiffness,
+    frequency_grid,
+    interface_dynamic_stiffness,
+)
+from foilstudy.dynamics.damping_matrix import damping_matrix
+from foilstudy.dynamics.structure import INTERFACE
+from foilstudy.export import FORMATS, Contents, contents_of, export_realisation, write
+from foilstudy.export.__main__ import main
+from foilstudy.export.contents import surface_grid
+from foilstudy.export.energies import element_energies, principal_strains
+from foilstudy.patch import RING_ROWS
+from foilstudy.realisation.crumpled import Crumple
+from foilstudy.realisation.record import Quantity, write_record
+from foilstudy.realisation.structures import stress_free_structure
+from foilstudy.shell.elements import ELEMENTS
+from foilstudy.shell.sheet_model import SheetModel
+from foilstudy.stiffness import DOF_NAMES, fixed_stiffness
+from foilstudy.stiffness.directional import DIRECTIONS
+from foilstudy.surface import SurfaceGrid, sheet_from_grid
+from foilstudy.surface.fit import fitted_patch
+
+MODES = 4
+RATIO = 0.05
+VISCOUS = [ModalDamping(RATIO), RayleighDamping.between(RATIO, 20.0, 300.0)]
+
+
+@pytest.fixture(scope="module")
+def contents(coarse_crumple):
+    sheet = coarse_crumple.sheet
+    crumple = Crumple(FOIL, sheet.patch, coarse_crumple.points, sheet.reference, sheet.element)
+    return Contents(
+        crumple,
+        HintzHerting(400.0).reduce(stress_free_structure(crumple)),
+        ModalDamping(RATIO),
+        frequency_grid(1.0, 300.0, 25),
+        {"seed": "0", "created": "2026-01-01T00:00:00+00:00"},
+        MODES,
+    )
+
+
+@pytest.fixture(scope="module")
+def folder(contents, tmp_path_factory):
+    """Every format, written once."""
+    folder = tmp_path_factory.mktemp("export")
+    for name, kind in FORMATS.items():
+        write(contents, name, folder / kind.filename)
+    return folder
+
+
+def second_order_stiffness(k, m, c, frequencies):
+    """Interface dynamic stiffness of M, C and K: the inverse of the receptance of the rings."""
+    omega = 2 * np.pi * np.asarray(frequencies)[:, None, None]
+    dynamic = k - omega**2 * m + 1j * omega * c
+    inner = dynamic[:, INTERFACE:, INTERFACE:]
+    carried = np.linalg.solve(inner, dynamic[:, INTERFACE:, :INTERFACE])
+    return dynamic[:, :INTERFACE, :INTERFACE] - dynamic[:, :INTERFACE, INTERFACE:] @ carried
+
+
+def assert_same_stiffness(ours, expected, tolerance=1e-9):
+    """Every pair of motions against the two diagonal terms that belong to it."""
+    diagonal = np.abs(np.einsum("fii->fi", expected))
+    scale = np.sqrt(diagonal[:, :, None] * diagonal[:, None, :])
+    assert (np.abs(ours - expected) / scale).max() < tolerance
+
+
+# --- damping matrix ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("damping", VISCOUS)
+def test_damping_matrix_gives_the_dynamic_stiffness_of_its_damping(contents, damping):
+    model = contents.model
+    c = damping_matrix(model, damping)
+    ours = second_order_stiffness(model.stiffness, model.mass, c, contents.frequencies)
+    expected = interface_dynamic_stiffness(model, contents.frequencies, damping)
+    assert_same_stiffness(ours, expected)
+
+
+@pytest.mark.parametrize("damping", VISCOUS)
+def test_damping_matrix_never_feeds_energy_in(contents, damping):
+    c = damping_matrix(contents.model, damping)
+    np.testing.assert_allclose(c, c.T, rtol=0, atol=1e-12 * np.abs(c).max())
+    scale = 1 / np.sqrt(np.diag(contents.model.mass))
+    values = np.linalg.eigvalsh(c * np.outer(scale, scale))
+    assert values[0] > -1e-10 * values[-1]
+
+
+def test_rayleigh_matrix_is_the_textbook_sum(contents):
+    """alpha M + beta K, where K of the rigid motions is exactly zero."""
+    model, damping = contents.model, VISCOUS[1]
+    expected = damping.mass_coefficient * model.mass
+    expected = expected + damping.stiffness_coefficient * model.stiffness
+    scale = np.sqrt(np.outer(np.diag(expected), np.diag(expected)))
+    ours = damping_matrix(model, damping)
+    np.testing.assert_allclose(ours / scale, expected / scale, rtol=0, atol=1e-9)
+
+
+def test_modal_damping_leaves_rigid_motions_undamped(contents):
+    values, vectors = contents.model.free_modes()
+    c = vectors.T @ damping_matrix(contents.model, ModalDamping(RATIO)) @ vectors
+    expected = np.diag(2 * RATIO * np.sqrt(values))
+    np.testing.assert_allclose(c, expected, rtol=0, atol=1e-8 * expected.max())
+
+
+def test_structural_damping_has_no_matrix(contents):
+    with pytest.raises(ValueError, match="not viscous"):
+        damping_matrix(contents.model, StructuralDamping(0.1))
+
+
+# --- reduced models ------------------------------------------------------------------------------
+
+
+def test_netcdf_model_reproduces_the_dynamic_stiffness(contents, folder):
+    with xr.open_dataset(folder / "reduced.nc") as file:
+        k, m, c = (file[name].values for name in ("stiffness", "mass", "damping"))
+        assert list(file.interface_dof.values) == list(DOF_NAMES)
+        np.testing.assert_array_equal(file.interface_map.values, contents.model.interface_map)
+        assert all(variable.attrs["units"] for variable in file.data_vars.values())
+        assert file.attrs["seed"] == "0" and file.attrs["rigid_modes"] == 6
+        assert file.attrs["reduction"] == contents.model.method
+    for matrix in (k, m):
+        np.testing.assert_array_equal(matrix, matrix.T)
+    assert_same_stiffness(
+        second_order_stiffness(k, m, c, contents.frequencies), contents.dynamic_stiffness
+    )
+    np.testing.assert_array_equal(
+        fixed_stiffness(k[:INTERFACE, :INTERFACE]),
+        fixed_stiffness(contents.model.static_stiffness),
+    )
+
+
+@pytest.fixture(scope="module")
+def matlab(folder):
+    return loadmat(folder / "reduced.mat", squeeze_me=True, simplify_cells=True)
+
+
+def test_matlab_matrices_reproduce_the_dynamic_stiffness(contents, matlab):
+    k, m, c, b = (matlab[name] for name in "KMCB")
+    omega = 2 * np.pi * matlab["frequency_Hz"][:, None, None]
+    receptance = b.T @ np.linalg.solve(k - omega**2 * m + 1j * omega * c, b)
+    assert_same_stiffness(np.linalg.inv(receptance), contents.dynamic_stiffness)
+    recorded = np.moveaxis(matlab["dynamic_stiffness"], 2, 0)
+    np.testing.assert_array_equal(recorded, contents.dynamic_stiffness)
+    assert list(matlab["motion_names"]) == list(DOF_NAMES)
+    assert list(matlab["motion_units"][2:4]) == ["m", "rad"]
+    assert matlab["provenance"]["seed"] == "0"
+
+
+def test_matlab_state_space_is_the_receptance_of_the_rings(contents, matlab):
+    a, b, c, d = (matlab["sys"][name] for name in "ABCD")
+    s = 2j * np.pi * contents.frequencies[:, None, None]
+    receptance = c @ np.linalg.solve(s * np.eye(len(a)) - a, b.astype(complex)) + d
+    assert_same_stiffness(np.linalg.inv(receptance), contents.dynamic_stiffness)
+
+
+def test_state_space_is_stable_but_for_the_rigid_motions(matlab):
+    poles = np.linalg.eigvals(matlab["sys"]["A"])
+    rigid = np.abs(poles) < 1e-6
+    assert rigid.sum() == 12  # six double poles at zero
+    assert (poles[~rigid].real < 0).all()
+    damping = -poles[~rigid].real / np.abs(poles[~rigid])
+    np.testing.assert_allclose(damping, RATIO, rtol=1e-6)
+
+
+# --- frequency responses -------------------------------------------------------------------------
+
+
+def test_universal_file_holds_every_pair_of_motions(contents, folder):
+    sets = pyuff.UFF(str(folder / "frequency_response.uff")).read_sets()
+    units, nodes, *functions = sets
+    assert units["units_code"] == 1 and units["length"] == 1.0
+    assert list(nodes["node_nums"]) == [1, 2]
+    np.testing.assert_allclose(nodes["z"], contents.ring_heights, atol=1e-6)
+    pairs = [f for f in functions if f["rsp_node"]]
+    assert len(pairs) == 144
+    expected = contents.dynamic_stiffness
+    for function in pairs:
+        i = 6 * (int(function["rsp_node"]) - 1) + int(function["rsp_dir"]) - 1
+        j = 6 * (int(function["ref_node"]) - 1) + int(function["ref_dir"]) - 1
+        assert DOF_NAMES[i] in function["id1"] and function["id1"].strip().endswith(DOF_NAMES[j])
+        np.testing.assert_allclose(function["x"], contents.frequencies, rtol=1e-5)
+        peak = np.abs(expected[:, i, j]).max()
+        np.testing.assert_allclose(function["data"], expected[:, i, j], rtol=0, atol=1e-11 * peak)
+
+
+def test_universal_file_names_definition_and_direction(contents, folder):
+    sets = pyuff.UFF(str(folder / "frequency_response.uff")).read_sets()
+    named = {f["id1"].strip(): f["data"] for f in sets[2:] if not f["rsp_node"]}
+    stiffness = directional_stiffness(contents.dynamic_stiffness)
+    assert len(named) == 6
+    for d, definition in enumerate(DEFINITIONS):
+        for e, direction in enumerate(DIRECTIONS):
+            ours = named[f"{definition} {direction} dynamic stiffness"]
+            np.testing.assert_allclose(ours, stiffness[d, e], rtol=1e-11)
+
+
+def test_table_has_units_and_every_digit(contents, folder):
+    with (folder / "frequency_response.csv").open(newline="") as file:
+        header, *rows = csv.reader(file)
+    values = dict(zip(header, np.array(rows, dtype=float).T, strict=True))
+    np.testing.assert_array_equal(values.pop("frequency (Hz)"), contents.frequencies)
+    stiffness = directional_stiffness(contents.dynamic_stiffness)
+    for d, definition in enumerate(DEFINITIONS):
+        for e, direction in enumerate(DIRECTIONS):
+            for part in ("real", "imag"):
+                column = values.pop(f"{definition} {direction} {part} (N/m)")
+                np.testing.assert_array_equal(column, getattr(stiffness[d, e], part))
+    assert not values
+
+
+# --- shapes --------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def mesh(folder):
+    return meshio.read(folder / "shape.vtu")
+
+
+def test_paraview_cells_are_the_elements(contents, mesh):
+    (block,) = mesh.cells
+    patch = contents.crumple.patch
+    assert block.type == "quad9" and len(block.data) == patch.elements_along * patch.elements_around
+    assert np.array_equal(np.unique(block.data), np.arange(len(mesh.points)))
+    corners = mesh.points[block.data[:, :4]]
+    normals = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+    outward = corners.mean(axis=1) * [1, 1, 0]
+    first_row = slice(0, patch.elements_around)  # upright at the ring
+    assert ((normals * outward).sum(axis=1)[first_row] > 0).all()
+    middles = mesh.points[block.data[:, 4:8]].mean(axis=1)
+    size = max(patch.size_around, patch.size_along)
+    assert np.linalg.norm(mesh.points[block.data[:, 8]] - middles, axis=1).max() < 0.5 * size
+
+
+def test_paraview_displacement_leads_from_the_undeformed_shape_to_the_crumple(contents, mesh):
+    fields = mesh.point_data
+    start = fields["reference_position_m"]
+    np.testing.assert_allclose(start + fields["displacement_m"], mesh.points, atol=1e-15)
+    radius = [np.hypot(*points.T[:2]) for points in (mesh.points, start)]
+    np.testing.assert_allclose(fields["radial_displacement_m"], radius[0] - radius[1], atol=1e-15)
+    assert np.ptp(start[:, 2]) == pytest.approx(FOIL.reference_height, rel=1e-3)
+    assert np.ptp(mesh.points[:, 2]) == pytest.approx(GAP_HEIGHT, rel=1e-9)
+
+
+def test_energy_densities_integrate_to_the_energies_of_the_crumple(coarse_crumple, mesh):
+    energies = coarse_crumple.sheet.energies(coarse_crumple.points)
+    area = mesh.cell_data["reference_area_m2"][0]
+    assert area.sum() == pytest.approx(np.pi * DIAMETER * FOIL.reference_height, rel=1e-3)
+    for name in ("membrane", "bending", "stabilisation"):
+        density = mesh.cell_data[f"{name}_energy_J_per_m2"][0]
+        assert (density >= 0).all()
+        assert density @ area == pytest.approx(getattr(energies, name), rel=1e-10)
+
+
+@pytest.mark.parametrize("element", ELEMENTS.values(), ids=ELEMENTS)
+def test_element_energies_sum_to_the_energy_of_a_sheet(coarse_crumple, element):
+    sheet = coarse_crumple.sheet
+    sheet = SheetModel(sheet.patch, sheet.reference, sheet.material, THICKNESS, element)
+    energies = sheet.energies(coarse_crumple.points)
+    expected = [energies.membrane, energies.bending, energies.stabilisation]
+    ours = element_energies(sheet, coarse_crumple.points).sum(axis=(1, 2))
+    np.testing.assert_allclose(ours, expected, rtol=1e-10)
+
+
+def test_strains_of_a_stretched_and_narrowed_cylinder_are_the_exact_ones():
+    """Along by 1 + s, around by 1 + w: Green strains s + s2/2 and w + w2/2, curvature w/R."""
+    s, w = 0.02, -0.01
+    sheet = cylinder(5e-3)
+    points = sheet.reference * np.array([1 + w, 1 + w, 1 + s])[:, None, None]
+    strains = principal_strains(sheet, points)
+    np.testing.assert_allclose(strains.membrane_max, s + s**2 / 2, rtol=1e-9)
+    # around, corner and middle are the circle's to second order in the element's angle
+    np.testing.assert_allclose(strains.membrane_min, w + w**2 / 2, rtol=2e-3)
+    np.testing.assert_allclose(np.abs(strains.curvature), abs(w) / (DIAMETER / 2), rtol=2e-3)
+
+
+def test_mode_fields_are_orthonormal_in_mass_and_rest_at_the_rings(contents, coarse_crumple, mesh):
+    names = [name for name in mesh.point_data if name.startswith("mode_")]
+    frequencies, _ = contents.model.clamped_modes(MODES)
+    stated = [float(name.split("_")[2]) for name in names]
+    np.testing.assert_allclose(stated, frequencies, atol=0.006)
+    patch = contents.crumple.patch
+    shape = (2 * patch.elements_along + 1, patch.columns * 2, 3)
+    controls = []
+    for name in names:
+        field = mesh.point_data[name].reshape(shape)
+        assert not field[[0, -1]].any()
+        controls.append(fitted_patch(SurfaceGrid(field.astype(float), 2))[1])
+    inner = np.array(controls)[:, :, RING_ROWS:-RING_ROWS]
+    inner = np.moveaxis(inner, 1, 3).reshape(MODES, -1)
+    product = inner @ (coarse_crumple.mass.interior @ inner.T)
+    np.testing.assert_allclose(product, np.eye(MODES), atol=1e-5)  # single precision fields
+    energy = inner @ (coarse_crumple.stiffness.interior @ inner.T)
+    np.testing.assert_allclose(np.sqrt(np.diag(energy)) / (2 * np.pi), frequencies, rtol=1e-3)
+
+
+@pytest.mark.parametrize("name", ["shape.vtu", "shape.npz"])
+def test_exported_shapes_come_back_exactly(contents, folder, name):
+    back = sheet_from_grid(folder / name, THICKNESS, FOIL.material)
+    lift = contents.crumple.points[2, :RING_ROWS].mean()
+    expected = contents.crumple.points - np.array([0, 0, lift])[:, None, None]
+    np.testing.assert_allclose(back.points, expected, atol=1e-14)
+
+
+def test_calculix_nodes_lie_on_the_surface_and_the_rings_are_whole(contents, folder):
+    deck = meshio.read(folder / "calculix.inp", file_format="abaqus")
+    (block,) = deck.cells
+    patch = contents.crumple.patch
+    assert block.type == "quad8"
+    assert len(block.data) == patch.elements_along * patch.elements_around
+    grid = surface_grid(contents.crumple.points)
+    used = np.ones(grid.shape[:2], dtype=bool)
+    used[1::2, 1::2] = False
+    np.testing.assert_allclose(deck.points[:-4], grid[used], atol=1e-13)
+    for name, row in (("BOTTOM", 0), ("TOP", -1)):
+        np.testing.assert_allclose(deck.points[deck.point_sets[name]], grid[row], atol=1e-13)
+    corners = deck.points[block.data]
+    for middle, (start, end) in zip((4, 5, 6, 7), ((0, 1), (1, 2), (2, 3), (3, 0))):
+        away = np.linalg.norm(corners[:, middle] - corners[:, [start, end]].mean(axis=1), axis=1)
+        assert away.max() < 0.25 * max(patch.size_around, patch.size_along)
+
+
+def test_calculix_deck_states_foil_steps_and_what_to_expect(contents, folder):
+    text = (folder / "calculix.inp").read_text()
+    lines = text.splitlines()
+    assert lines[lines.index("*ELASTIC") + 1] == "6.5e+08, 0.4"
+    assert lines[lines.index("*DENSITY") + 1] == "2150"
+    assert text.count("*STEP") == text.count("*END STEP") == 4
+    assert text.count("*STATIC") == 3 and text.count("*FREQUENCY") == 1
+    assert text.count("*RIGID BODY") == 2
+    assert max(map(len, lines)) < 1320  # the longest line that CalculiX reads
+    axial, _ = fixed_stiffness(contents.model.static_stiffness)
+    assert f"axial {axial:.6g} N/m" in text
+
+
+# --- refusals, realisations and the command line -------------------------------------------------
+
+
+def test_unknown_format_is_refused_naming_the_known_ones(contents, tmp_path):
+    with pytest.raises(ValueError, match=r"'stl' is not an export format; use one of nc, mat"):
+        write(contents, "stl", tmp_path / "shape.stl")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_every_format_of_the_registry_can_be_configured():
+    choices = Export.model_json_schema()["properties"]["formats"]["items"]["enum"]
+    assert choices == list(FORMATS)
+
+
+STUDY = {
+    "study": {"name": "exported"},
+    "sweep": {"thickness_um": [500], "reference_height_mm": [170], "realisations": 1},
+    "mesh": {"element_size_mm": 10},
+    "dynamics": {"shown_max_hz": 100, "frequencies": 5, "eigenfrequencies": 3, "mode_shapes": 2},
+}
+
+
+@pytest.fixture
+def realisation(coarse_crumple, tmp_path):
+    """A finished realisation: its folder, task, and a way to change its status."""
+    study = load_config(STUDY)
+    (cell,) = study.cells()
+    folder = tmp_path / "realisations" / cell.thickness_id / cell.overlength_id / str(cell.seed)
+    control = ("component", "row", "column")
+    shape = {
+        "control_points": Quantity(coarse_crumple.points, "m", "crumpled", control),
+        "reference_control_points": Quantity(coarse_crumple.sheet.reference, "m", "flat", control),
+    }
+
+    def record(status, message="as it should be"):
+        attributes = {"status": status, "message": message, "element": "corner"}
+        write_record(folder / "crumple.nc", shape, attributes)
+
+    record("converged")
+    (tmp_path / "study.yaml").write_text(study.to_yaml())
+    return SimpleNamespace(folder=folder, task=study.response_task(cell), record=record)
+
+
+def test_realisation_leaves_the_formats_and_what_they_are(realisation):
+    out = realisation.folder / "export"
+    export_realisation(realisation.task, realisation.folder / "crumple.nc", out, ["csv", "npz"])
+    names = sorted(path.name for path in out.iterdir())
+    assert names == ["README.txt", "frequency_response.csv", "shape.npz"]
+    readme = (out / "README.txt").read_text()
+    assert all(FORMATS[name].content in readme for name in ("csv", "npz"))
+
+
+def test_realisation_without_equilibrium_leaves_its_reason_alone(realisation):
+    realisation.record("not_converged", "residual 1e-3")
+    out = realisation.folder / "export"
+    export_realisation(realisation.task, realisation.folder / "crumple.nc", out, list(FORMATS))
+    assert [path.name for path in out.iterdir()] == ["README.txt"]
+    assert "not_converged (residual 1e-3)" in (out / "README.txt").read_text()
+    with pytest.raises(ValueError, match="only an equilibrium is exported"):
+        contents_of(realisation.task, realisation.folder / "crumple.nc")
+
+
+def test_format_that_cannot_hold_the_damping_leaves_the_others(realisation):
+    dynamics = realisation.task.dynamics.model_copy(update={"damping": "structural"})
+    task = realisation.task.model_copy(update={"dynamics": dynamics})
+    out = realisation.folder / "export"
+    export_realisation(task, realisation.folder / "crumple.nc", out, ["mat", "csv"])
+    assert sorted(p.name for p in out.iterdir()) == ["README.txt", "frequency_response.csv"]
+    assert "reduced.mat: not written" in (out / "README.txt").read_text()
+
+
+def test_command_line_writes_one_format_to_a_file(realisation, tmp_path):
+    target = tmp_path / "mine.csv"
+    config = tmp_path / "study.yaml"
+    main([str(realisation.folder), "--format=csv", f"--output={target}", f"--config={config}"])
+    assert target.read_text().startswith("frequency (Hz),transfer axial real (N/m)")
+
+
+def test_command_line_refuses_in_one_sentence(realisation, tmp_path):
+    """`SystemExit` with a text prints it and ends with code 1."""
+    with pytest.raises(SystemExit) as unknown:
+        main([str(realisation.folder), "--format=stl"])
+    known = ", ".join(FORMATS)
+    assert unknown.value.code == f"'stl' is not an export format; use one of {known}."
+    with pytest.raises(SystemExit, match=r"^\S+cube.nc: there is no such file, .*--config\.$"):
+        main([str(realisation.folder), "--format=csv"])
+    config = tmp_path / "study.yaml"
+    realisation.record("diverged", "step 12")
+    with pytest.raises(SystemExit, match=r"its status is diverged \(step 12\)"):
+        main([str(realisation.folder), "--format=csv", f"--config={config}"])
