@@ -24,9 +24,11 @@ report: "workflow/report/workflow.rst"
 include: "workflow/rules/common.smk"
 include: "workflow/rules/realisations.smk"
 include: "workflow/rules/results.smk"
+include: "workflow/rules/export.smk"
 include: "workflow/rules/verify.smk"
 include: "workflow/rules/elements.smk"
 include: "workflow/rules/convergence.smk"
+include: "workflow/rules/dynamics.smk"
 
 
 localrules:
@@ -39,5 +41,6 @@ rule study:
         rules.report.output,
         rules.tables.output,
         FIGURE_FILES,
+        EXPORTS,
     message:
         f"study {STUDY.study.name}: see {RESULTS}/report.html"

@@ -14,6 +14,7 @@ DIRECTIONS = ["axial", "radial"]
 DEFINITIONS = ["transfer", "driving", "relative"]
 LAW = {"axial": (3.6, -0.9, 1.35), "radial": (3.1, -0.5, 1.45)}
 EXPONENT = -2.2
+MODES_PER_HZ = 0.3
 GAP_HEIGHT_MM = 130.0
 DIAMETER_MM = 200.0
 
@@ -37,6 +38,8 @@ def make_cube(
     relaxed_again=False,
 ):
     """A cube that obeys `LAW` and `EXPONENT`, with scatter `cv`, and `failed` cells (i, j, s).
+
+    From the first eigenfrequency on there are `MODES_PER_HZ`.
 
     Pre-stressed values after relaxing again on refined meshes are there when asked for.
     """
@@ -62,6 +65,8 @@ def make_cube(
     scale = np.array([1.0, 1.1, 0.9])
     dynamic = magnitude[:, :, :, None] * scale[:, None, None]
 
+    count = np.maximum(0, np.floor(MODES_PER_HZ * (f - f1[..., None]) + 1))
+
     status = np.full(shape, "converged", dtype=object)
     message = np.full(shape, "", dtype=object)
     if seeds > 1:
@@ -78,7 +83,7 @@ def make_cube(
         status[i, j, s] = "failed"
         message[i, j, s] = "the ring force is not finite at step 12: lower mesh.element_size_mm"
         static[i, j, s] = np.nan
-        dynamic[i, j, s] = np.nan
+        dynamic[i, j, s] = count[i, j, s] = np.nan
         for values, _ in cells.values():
             values[i, j, s] = np.nan
 
@@ -109,6 +114,7 @@ def make_cube(
     dynamic_dims = (*cell_dims, "definition", "direction", "frequency")
     data["dynamic_stiffness_re"] = variable(dynamic_dims, 0.8 * dynamic, "N/m", "dynamic re")
     data["dynamic_stiffness_im"] = variable(dynamic_dims, 0.6 * dynamic, "N/m", "dynamic im")
+    data["mode_count"] = variable((*cell_dims, "frequency"), count, "1", "mode_count")
     data["status"] = variable(cell_dims, status, "1", "status")
     data["message"] = variable(cell_dims, message, "1", "message")
     return xr.Dataset(
@@ -146,6 +152,24 @@ def write_crumple(
             return path
         _write_shape(file, rng, thickness_um, overlength, reference_height_mm, element_mm)
         _write_history(file, overlength, reference_height_mm, thickness_um)
+    return path
+
+
+def write_response(crumple_path, shapes=None, first_hz=50.0):
+    """Write the response.nc beside a crumple, with mode shapes (mode, 3, rows, columns) or none."""
+    path = crumple_path.with_name("response.nc")
+    with netCDF4.Dataset(path, "w") as file:
+        file.setncatts({"status": "converged", "message": ""})
+        if shapes is None:
+            return path
+        for name, size in zip(("shape_mode", "component", "node_row", "node_column"), shapes.shape):
+            file.createDimension(name, size)
+        variable = file.createVariable("mode_shape", "f4", tuple(file.dimensions))
+        variable[:] = shapes
+        file.createDimension("mode", 20)
+        frequencies = np.full(20, np.nan)
+        frequencies[: len(shapes)] = first_hz + 10.0 * np.arange(len(shapes))
+        file.createVariable("eigenfrequency", "f8", ("mode",))[:] = frequencies
     return path
 
 

@@ -9,9 +9,10 @@ import pytest
 from foilstudy.convergence import crumpling, plan, stops
 from foilstudy.convergence.analysis import fit, means, slope
 from foilstudy.convergence.figures import FIGURES
-from foilstudy.convergence.records import Study, read, write
+from foilstudy.convergence.records import Study
 from foilstudy.convergence.tables import write_crumples, write_markdown, write_stops
 from foilstudy.figures.registry import save
+from foilstudy.files import read_json, write_json
 from foilstudy.mesh_size import element_size_for, expected_energy_error
 
 COARSE = plan.Case("corner", 500, 150, 12.0, 0)
@@ -127,8 +128,8 @@ def test_a_coarse_crumple_has_all_its_numbers(monkeypatch, tmp_path):
     assert sum(record[part] for part in parts) == pytest.approx(record["strain_energy"])
     assert min(record["static_stiffness"]) > 0
     assert np.isfinite(record["static_limit"]).all()
-    write(record, tmp_path / "record.json")
-    again = read(tmp_path / "record.json")
+    write_json(record, tmp_path / "record.json")
+    again = read_json(tmp_path / "record.json")
     np.testing.assert_array_equal(again["static_stiffness"], record["static_stiffness"])
 
 
@@ -175,18 +176,20 @@ def fake_stop(residual):
 def synthetic_study(tmp_path_factory):
     folder = tmp_path_factory.mktemp("convergence")
     for case in plan.crumples():
-        write(fake_record(case), folder / f"crumples/{case.name}.json")
+        write_json(fake_record(case), folder / f"crumples/{case.name}.json")
     for case in plan.MULTILEVEL:
         levels = [fake_record(case, size) | {"level": k} for k, size in enumerate((5, 2.5, 1.25))]
-        write(levels, folder / f"levels/{case.name}.json")
+        write_json(levels, folder / f"levels/{case.name}.json")
     for case in plan.STOPPED:
-        write([fake_stop(residual) for residual in plan.STOPS], folder / f"stops/{case.name}.json")
+        write_json(
+            [fake_stop(residual) for residual in plan.STOPS], folder / f"stops/{case.name}.json"
+        )
     timing = [
         {"thickness_um": t, "size_mm": s, "elements": 1, "seconds_per_step": 1e-2 * s**-2.1}
         for t in plan.THICKNESSES_UM
         for s in plan.SIZES_MM
     ]
-    write(timing, folder / "timing.json")
+    write_json(timing, folder / "timing.json")
     return Study.read(folder)
 
 

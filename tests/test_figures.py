@@ -9,9 +9,9 @@ import sys
 import matplotlib.image
 import numpy as np
 import pytest
-from synthetic import make_cube, write_crumple
+from synthetic import MODES_PER_HZ, make_cube, write_crumple, write_response
 
-from foilstudy.figures import FIGURES, draw_figure, draw_figures
+from foilstudy.figures import FIGURES, FigureInputs, draw_figure, draw_figures
 from foilstudy.figures.crumples import Shape, catalogue, read_shape, typical_configuration
 from foilstudy.figures.render import View, render
 from foilstudy.figures.style import spread
@@ -19,6 +19,7 @@ from foilstudy.patch import Patch, cylinder_control_points
 
 CUBE_FIGURES = [name for name, spec in FIGURES.items() if spec.needs == ("cube",)]
 SHAPE_FIGURES = [name for name, spec in FIGURES.items() if spec.needs == ("crumple_paths",)]
+MODE_FIGURES = [name for name, spec in FIGURES.items() if "response_paths" in spec.needs]
 
 
 def scatter(overlength, direction):
@@ -49,8 +50,8 @@ def texts(figure):
     return " ".join(t.get_text().replace("\n", " ") for t in figure.findobj(matplotlib.text.Text))
 
 
-def test_every_figure_takes_the_cube_or_the_crumples():
-    assert set(CUBE_FIGURES) | set(SHAPE_FIGURES) == set(FIGURES)
+def test_every_figure_takes_the_cube_or_records():
+    assert set(CUBE_FIGURES) | set(SHAPE_FIGURES) | set(MODE_FIGURES) == set(FIGURES)
     for spec in FIGURES.values():
         assert spec.title and spec.caption.endswith(".")
 
@@ -104,8 +105,9 @@ def test_shape_figure_has_ink(name, crumple_paths):
 def test_same_figure_gives_the_same_bytes(tmp_path):
     cube_path = tmp_path / "cube.nc"
     make_cube(thickness_um=(50.0, 500.0), seeds=2, cv=scatter).to_netcdf(cube_path)
-    first = draw_figure("variability", cube_path, [], tmp_path / "new" / "a")
-    again = draw_figure("variability", cube_path, [], tmp_path / "new" / "b")
+    files = FigureInputs(cube_path)
+    first = draw_figure("variability", files, tmp_path / "new" / "a")
+    again = draw_figure("variability", files, tmp_path / "new" / "b")
     assert [p.name for p in first] == ["a.png", "a.svg"]
     assert [p.read_bytes() for p in first] == [p.read_bytes() for p in again]
     assert len(list((tmp_path / "new").iterdir())) == 4
@@ -113,13 +115,14 @@ def test_same_figure_gives_the_same_bytes(tmp_path):
 
 def test_unknown_figure_is_named():
     with pytest.raises(KeyError, match="no figure 'nothing': choose one of morphology"):
-        draw_figure("nothing", "cube.nc", [], "stem")
+        draw_figure("nothing", FigureInputs("cube.nc"), "stem")
 
 
 def test_draw_figures_writes_png_and_svg_of_each(crumple_paths, tmp_path):
     cube_path = tmp_path / "cube.nc"
     make_cube(cv=scatter, seeds=2).to_netcdf(cube_path)
-    paths = draw_figures(["energy", "seeds"], cube_path, crumple_paths, tmp_path)
+    files = FigureInputs(cube_path, crumple_paths)
+    paths = draw_figures(["energy", "seeds"], files, tmp_path)
     assert [path.name for path in paths] == ["energy.png", "energy.svg", "seeds.png", "seeds.svg"]
     assert all(path.stat().st_size > 1000 for path in paths)
 
@@ -198,6 +201,82 @@ def test_dynamic_stiffness_figure_takes_every_definition():
             .squeeze()
         )
         np.testing.assert_allclose(figure.axes[0].get_lines()[0].get_ydata(), median)
+
+
+CONFIG = """\
+sheet: {diameter_mm: 200}
+material: {youngs_modulus_mpa: 650, poisson_ratio: 0.4, density_kg_m3: 2150, yield_stress_mpa: 12}
+"""
+
+
+def test_modal_density_figure_shows_the_density_and_that_of_a_plate():
+    cube = make_cube(thickness_um=(50.0, 500.0), seeds=3).assign_attrs(config=CONFIG)
+    cube["element_size"] = 5.0 + 0 * cube["first_eigenfrequency"]
+    thin, thick = FIGURES["modal_density"].draw(cube=cube).axes[:2]
+    curve = next(line for line in thin.get_lines() if line.get_label() == "92 %")
+    top = curve.get_xdata() > 300
+    np.testing.assert_allclose(curve.get_ydata()[top], MODES_PER_HZ, rtol=0.03)
+    assert "flat plate" in texts(thin) and "under 4 elements" in texts(thin)
+    assert "under 4 elements" not in texts(thick)  # their waves are longer
+    plates = sorted(line.get_ydata()[0] for line in thick.get_lines()[-2:])
+    assert plates[1] / plates[0] == pytest.approx(250 / 135)
+
+
+@pytest.mark.parametrize("name", ["modal_density", "convergence_high_frequency"])
+def test_modal_figures_of_an_older_cube_need_no_counts_and_no_configuration(name):
+    figure = FIGURES[name].draw(cube=make_cube(seeds=2, cv=scatter).drop_vars("mode_count"))
+    assert ink(figure) > 0
+    assert "plate" not in texts(figure)
+
+
+def test_convergence_figure_marks_where_the_overlengths_become_one_curve():
+    cube = make_cube(thickness_um=(500.0,), seeds=6, cv=lambda overlength, direction: 0.2)
+    curves = cube["dynamic_stiffness_re"]
+    mean = np.exp(np.log(curves).mean(["overlength", "seed"]))
+    deviation = np.log(curves / curves.mean("seed"))
+    apart = np.log(cube["overlength"] / 30) * (cube["frequency"] < 100)
+    cube["dynamic_stiffness_re"] = (mean * np.exp(deviation + apart)).transpose(*curves.dims)
+    cube["dynamic_stiffness_im"] = 0 * cube["dynamic_stiffness_re"]
+    figure = FIGURES["convergence_high_frequency"].draw(cube=cube)
+    (mark,) = [text.get_text() for text in figure.axes[0].texts]
+    # The octave about it holds nothing from below 100 Hz.
+    assert float(mark.removesuffix(" Hz ")) == pytest.approx(100 * 2**0.5, rel=0.12)
+
+
+def write_modes(folder, thickness, seed, shapes):
+    (folder / f"{thickness}_{seed}").mkdir(parents=True)
+    crumple = write_crumple(folder / f"{thickness}_{seed}" / "crumple.nc", thickness, 170, seed)
+    return crumple, write_response(crumple, shapes)
+
+
+def test_mac_figure_compares_two_seeds_of_the_thinnest_and_the_thickest_foil(tmp_path):
+    rng = np.random.default_rng(3)
+    shapes = rng.standard_normal((4, 3, 6, 12))
+    pairs = [
+        *(write_modes(tmp_path, 50, seed, shapes[[0, 1, 2]]) for seed in (0, 1)),
+        *(write_modes(tmp_path, 250, seed, shapes[[0, 1, 2]]) for seed in (0, 1)),
+        write_modes(tmp_path, 500, 0, shapes[[0, 1]]),
+        write_modes(tmp_path, 500, 2, -5 * shapes[[1, 0]]),
+    ]
+    crumples, responses = zip(*pairs)
+    figure = FIGURES["mac_seeds"].draw(crumple_paths=crumples, response_paths=responses)
+    thin, thick = (np.asarray(ax.images[0].get_array()) for ax in figure.axes[:2])
+    np.testing.assert_allclose(np.diag(thin), 1)
+    np.testing.assert_allclose(np.fliplr(thick).diagonal(), 1)
+    assert "mode of seed 2" in texts(figure) and "60 Hz" in texts(figure)
+    assert "median 1.00, highest 1.00" in texts(figure)
+    assert 0.02 < ink(figure) < 0.7
+
+
+def test_mac_figure_of_a_study_without_mode_shapes_says_so(tmp_path):
+    pairs = [write_modes(tmp_path, 500, seed, None) for seed in (0, 1)]
+    crumples, responses = zip(*pairs)
+    for paths in (responses, ()):
+        figure = FIGURES["mac_seeds"].draw(crumple_paths=crumples, response_paths=paths)
+        assert "mode shapes of two seeds" in texts(figure)
+    failed = write_crumple(tmp_path / "failed.nc", 500, 170, 0, status="failed")
+    figure = FIGURES["mac_seeds"].draw(crumple_paths=[failed], response_paths=[])
+    assert "no usable realisation" in texts(figure)
 
 
 def test_catalogue_is_sorted_and_knows_failures(crumple_paths):

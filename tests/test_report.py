@@ -29,7 +29,14 @@ from foilstudy.report.mesh import (
 )
 from foilstudy.report.numerals import fixed, number, percent_range
 from foilstudy.report.prestress import prestress_findings, relaxed_findings, relaxed_rows
-from foilstudy.report.viewer import choose_shapes, decode_points, pack_shape
+from foilstudy.report.viewer import (
+    choose_shapes,
+    decode_mode,
+    decode_points,
+    pack_mode,
+    pack_shape,
+    viewer_data,
+)
 from foilstudy.statistics import (
     powerlaw_table,
     stiffness_summary,
@@ -319,6 +326,102 @@ def test_fine_mesh_is_thinned_and_keeps_its_edges(tmp_path, monkeypatch):
     points = unpack(packed, "surface")
     assert points[2, 0, 0] == pytest.approx(0, abs=1e-5)
     assert points[2, -1, 0] == pytest.approx(0.13, abs=1e-5)
+
+
+def smooth_modes(rows=9, columns=24):
+    """Two smooth modes with rings at rest, shape (2, 3, rows, columns)."""
+    angle = 2 * np.pi * np.arange(columns) / columns
+    height = np.sin(np.pi * np.linspace(0, 1, rows))[:, None]
+    waves = (2, 3)
+    return np.array(
+        [
+            [height * np.cos(n * angle), height * np.sin(n * angle), 0.2 * height + 0 * angle]
+            for n in waves
+        ]
+    )
+
+
+def write_modes(crumple, shapes, frequencies):
+    """Write response.nc beside a crumple, as the study records modes."""
+    path = crumple.with_name("response.nc")
+    with netCDF4.Dataset(path, "w") as data:
+        for name, size in zip(("shape_mode", "component", "node_row", "node_column"), shapes.shape):
+            data.createDimension(name, size)
+        data.createVariable("mode_shape", "f4", tuple(data.dimensions))[:] = shapes
+        data.createDimension("mode", len(frequencies))
+        data.createVariable("eigenfrequency", "f8", ("mode",))[:] = frequencies
+    return path
+
+
+def test_modes_of_the_view_decode_to_the_recorded_ones(tmp_path):
+    crumple = write_crumple(tmp_path / "0" / "crumple.nc")
+    other = write_crumple(tmp_path / "1" / "crumple.nc", height_mm=250.0)
+    shapes = 40 * smooth_modes()
+    response = write_modes(crumple, shapes, [55.5, 61.0, 70.0])
+    inputs = make_study(tmp_path / "study", synthetic_cube(), figures=False)
+    inputs = dataclasses.replace(inputs, crumple_paths=(crumple, other), response_paths=(response,))
+    page = write_report(inputs, tmp_path / "study" / "report.html").read_text("utf-8")
+    parse(page)
+    data = json.loads(re.search(r'id="viewer-data">(.*?)</script>', page, flags=re.S)[1])
+    with_modes, without = data["shapes"]
+    assert without["modes"] == []
+    assert [mode["frequency"] for mode in with_modes["modes"]] == [55.5, 61.0]
+    for packed, shape in zip(with_modes["modes"], shapes, strict=True):
+        decoded = decode_mode(packed, with_modes["rows"], with_modes["columns"])
+        expected = shape / np.linalg.norm(shape, axis=0).max()
+        np.testing.assert_allclose(decoded, expected, atol=0.51 / 127)
+
+
+def test_modes_on_a_fine_mesh_are_kept_on_a_coarser_grid(monkeypatch):
+    monkeypatch.setattr("foilstudy.report.viewer.MODE_NODES_MAX", 800)
+    shape = smooth_modes(61, 96)[0]
+    packed = pack_mode(50.0, shape)
+    assert packed["rows"] * packed["columns"] <= 800
+    decoded = decode_mode(packed, 61, 96)
+    expected = shape / np.linalg.norm(shape, axis=0).max()
+    assert np.abs(decoded - expected).max() < 0.03
+    np.testing.assert_allclose(decoded[:, [0, -1]], 0, atol=1e-12)
+
+
+def test_view_goes_without_modes_that_are_not_known(tmp_path):
+    crumple = write_crumple(tmp_path / "crumple.nc")
+    shapes = smooth_modes()
+    shapes[1, 0, 0, 0] = np.nan
+    response = write_modes(crumple, shapes, [50.0, 60.0])
+    (packed,) = viewer_data(choose_shapes([crumple]), [response])["shapes"]
+    assert [mode["frequency"] for mode in packed["modes"]] == [50.0]
+    with netCDF4.Dataset(response, "a") as data:
+        data["eigenfrequency"][:] = np.nan
+    (packed,) = viewer_data(choose_shapes([crumple]), [response])["shapes"]
+    assert packed["modes"] == []
+    failed = write_crumple(tmp_path / "failed" / "crumple.nc", status="failed")
+    assert viewer_data(choose_shapes([failed]), [response])["shapes"] == []
+
+
+def test_script_finds_its_controls_and_asks_for_reduced_motion(study):
+    _, page = study
+    script = re.search(r"<script>(.*?)</script>", page, flags=re.S)[1]
+    wanted = set(re.findall(r'querySelector\("\[data-act=(\w+)\]"\)', script))
+    assert {"vibration", "mode", "play", "amplitude"} <= wanted
+    assert wanted <= set(re.findall(r'data-act="(\w+)"', page))
+    assert "prefers-reduced-motion" in script
+    assert re.search(r'<p class="controls" data-act="vibration" hidden>', page)
+
+
+def test_findings_on_modes_stand_by_their_figures(tmp_path):
+    cube = synthetic_cube()
+    density = 0.4 * np.maximum(cube["frequency"] - cube["first_eigenfrequency"], 0)
+    cube["mode_count"] = density.transpose(*CELL, "frequency")
+    inputs = make_study(tmp_path, cube, figures=False)
+    page = write_report(inputs, tmp_path / "report.html").read_text("utf-8")
+    dynamic, modes = (
+        words(page.split(f'<section id="{name}">')[1].split("</section>")[0])
+        for name in ("dynamic", "eigenfrequency")
+    )
+    assert "Nowhere does it stay within the scatter of the seeds up to 800 Hz" in dynamic
+    assert "has 0.40 modes per Hz" in modes
+    # The synthetic law is h^-2.2 without scatter.
+    assert "to the power of −2.20 ± 0.00 at 50 µm (published −2.06, outside it)" in modes
 
 
 def test_damaged_shape_is_named(tmp_path):

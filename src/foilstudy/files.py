@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+
+import numpy as np
 
 
 @contextmanager
@@ -26,3 +29,35 @@ def written_whole(path: str | Path) -> Iterator[Path]:
         os.replace(partial, path)
     finally:
         partial.unlink(missing_ok=True)
+
+
+def write_json(record: dict | list[dict], path: str | Path) -> None:
+    """Write a record as JSON, numbers that are not finite as null."""
+    with written_whole(path) as partial:
+        partial.write_text(json.dumps(_plain(record), indent=1, allow_nan=False) + "\n")
+
+
+def read_json(path: str | Path) -> dict | list[dict]:
+    """What `write_json` has written; null is None for single numbers, NaN in lists."""
+    return json.loads(Path(path).read_text(), object_hook=_arrays)
+
+
+def _plain(value):
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if isinstance(value, float) and not np.isfinite(value):
+        return None
+    return value
+
+
+def _arrays(record: dict) -> dict:
+    return {
+        key: np.array(value, float) if isinstance(value, list) and _numeric(value) else value
+        for key, value in record.items()
+    }
+
+
+def _numeric(value: list) -> bool:
+    return all(item is None or isinstance(item, int | float) for item in value)

@@ -3,7 +3,7 @@
 import sys
 
 from foilstudy.convergence.crumpling import run
-from foilstudy.convergence.records import write
+from foilstudy.files import write_json
 
 name, path = sys.argv[1:]
-write(run(name), path)
+write_json(run(name), path)

@@ -2,8 +2,8 @@
 
 import sys
 
-from foilstudy.convergence.records import write
 from foilstudy.convergence.stops import run_stops
+from foilstudy.files import write_json
 
 name, path = sys.argv[1:]
-write(run_stops(name), path)
+write_json(run_stops(name), path)

@@ -2,8 +2,8 @@
 
 import sys
 
-from foilstudy.convergence.records import write
 from foilstudy.convergence.timing import run_timing
+from foilstudy.files import write_json
 
 (path,) = sys.argv[1:]
-write(run_timing(), path)
+write_json(run_timing(), path)

@@ -1,47 +1,14 @@
-"""What the jobs of the convergence study write, and reading it back."""
+"""Reading back what the jobs of the convergence study have written."""
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from foilstudy.convergence import plan
-from foilstudy.files import written_whole
-
-
-def write(record: dict | list[dict], path: str | Path) -> None:
-    """Write a record as JSON, numbers that are not finite as null."""
-    with written_whole(path) as partial:
-        partial.write_text(json.dumps(_plain(record), indent=1, allow_nan=False) + "\n")
-
-
-def read(path: str | Path) -> dict | list[dict]:
-    """What `write` has written; null is None for single numbers, NaN in lists."""
-    return json.loads(Path(path).read_text(), object_hook=_arrays)
-
-
-def _plain(value):
-    if isinstance(value, dict):
-        return {key: _plain(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
-    if isinstance(value, float) and not np.isfinite(value):
-        return None
-    return value
-
-
-def _arrays(record: dict) -> dict:
-    return {
-        key: np.array(value, float) if isinstance(value, list) and _numeric(value) else value
-        for key, value in record.items()
-    }
-
-
-def _numeric(value: list) -> bool:
-    return all(item is None or isinstance(item, int | float) for item in value)
+from foilstudy.files import read_json
 
 
 @dataclass(frozen=True)
@@ -67,10 +34,10 @@ class Study:
     def read(cls, folder: Path) -> Study:
         """Read what the jobs have written."""
         return cls(
-            {case: read(folder / f"crumples/{case.name}.json") for case in plan.crumples()},
-            {case: read(folder / f"levels/{case.name}.json") for case in plan.MULTILEVEL},
-            {case: read(folder / f"stops/{case.name}.json") for case in plan.STOPPED},
-            read(folder / "timing.json"),
+            {case: read_json(folder / f"crumples/{case.name}.json") for case in plan.crumples()},
+            {case: read_json(folder / f"levels/{case.name}.json") for case in plan.MULTILEVEL},
+            {case: read_json(folder / f"stops/{case.name}.json") for case in plan.STOPPED},
+            read_json(folder / "timing.json"),
         )
 
     def ensemble(

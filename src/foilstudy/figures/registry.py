@@ -143,7 +143,7 @@ FIGURES: dict[str, FigureSpec] = {
         ("cube",),
     ),
     "convergence_high_frequency": FigureSpec(
-        "Do the overlengths become one curve?",
+        "Overlengths at high frequency",
         "Top: magnitude of the relative stiffness of each overlength (mean over seeds of its "
         "logarithm) over the mean of all overlengths. Dark band: one standard deviation of the "
         "seeds of an overlength to either side. Bottom: standard deviation over overlengths, less "

@@ -53,8 +53,8 @@ def _start(spread: OverlengthSpread, jackknife: tuple[float, float]) -> str:
     text = f"from {number(spread.one_curve_from_hz)} Hz"
     if math.isfinite(jackknife[0]):
         low, high = map(number, jackknife)
-        return f"{text} ({low} to {high} Hz without one of the seeds)"
-    return f"{text} (not so without one of the seeds)"
+        return f"{text} ({low} to {high} Hz with any one seed left out)"
+    return f"{text} (but not whichever seed is left out)"
 
 
 def _levels(found: list[OverlengthSpread]) -> str:

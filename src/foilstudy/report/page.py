@@ -171,9 +171,10 @@ def _content(inputs: ReportInputs, cube: xr.Dataset, folder: Path) -> dict:
         "relaxed_words": prestress.relaxed_findings(cube),
         "relaxed_rows": prestress.relaxed_rows(cube),
         "variability_words": findings.variability_findings(variability),
-        "dynamic_words": findings.dynamic_findings(cube) + modes.overlength_findings(cube),
-        "eigenfrequency_words": findings.eigenfrequency_findings(eigenfrequency, cube)
-        + modes.modal_density_findings(cube),
+        "dynamic_words": findings.dynamic_findings(cube),
+        "overlength_words": modes.overlength_findings(cube),
+        "eigenfrequency_words": findings.eigenfrequency_findings(eigenfrequency, cube),
+        "modal_density_words": modes.modal_density_findings(cube),
         "isolation_words": isolation.isolation_findings(links, isolation_options(cube)),
         "bend_words": laws.bend_sentence(powerlaw),
         "fit_words": laws.fit_findings(powerlaw),

@@ -1,8 +1,8 @@
 """Do the dynamic stiffnesses of all overlengths become one curve at high frequency?
 
 A one-way analysis of variance of ln |D| at every frequency splits the spread into that between
-overlengths and that of the seeds within an overlength. Both mean squares are averaged over an
-octave about each frequency, so that no single resonance decides.
+overlengths and that of the seeds within an overlength. Both variances are averaged over an octave
+about each frequency, so that no single resonance decides.
 """
 
 from __future__ import annotations
@@ -72,9 +72,10 @@ class OverlengthSpread:
 def overlength_spread(frequency: np.ndarray, magnitude: np.ndarray) -> OverlengthSpread:
     """Split the spread of ln |D| into overlengths and seeds.
 
-    With mean squares MSB between and MSW within, ``between = sqrt((MSB - MSW) / n)``, n the number
-    of seeds, or what stands for it where they differ (S. R. Searle, G. Casella and C. E. McCulloch,
-    Variance Components, 1992, section 3.6).
+    With the mean square MSW within, ``between**2`` is the variance of the overlengths' means less
+    ``MSW / n``, the variance that the mean of n seeds has by itself (with unequal numbers, of 1/n
+    the mean over overlengths); both are averaged over the octave first. This is the analysis of
+    unweighted means of F. Yates, J. American Statistical Association 29 (1934) 51-66.
 
     Parameters
     ----------
@@ -100,16 +101,14 @@ def overlength_spread(frequency: np.ndarray, magnitude: np.ndarray) -> Overlengt
     with np.errstate(invalid="ignore"):
         mean = log.sum(axis=1) / seeds[:, None]
     centred = np.where(known[..., None], log - mean[:, None], 0.0)
-    grand = log.sum(axis=(0, 1)) / total
-    squares = np.nansum(seeds[:, None] * (mean - grand) ** 2, axis=0)
-    msb = octave_average(frequency, squares / (groups - 1))
+    of_means = octave_average(frequency, np.nanvar(mean, axis=0, ddof=1))
     msw = octave_average(frequency, (centred**2).sum(axis=(0, 1)) / (total - groups))
-    size = (total - (seeds**2).sum() / total) / (groups - 1)
+    by_chance = msw * np.mean(1 / seeds[seeds > 0])
     return OverlengthSpread(
         frequency=np.asarray(frequency, float),
         deviation=mean - np.nanmean(mean, axis=0),
         within=np.sqrt(msw),
-        between=np.sqrt(np.maximum(msb - msw, 0) / size),
+        between=np.sqrt(np.maximum(of_means - by_chance, 0)),
     )
 
 

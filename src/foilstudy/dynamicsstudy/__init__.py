@@ -1,0 +1,1 @@
+"""Reductions held against the full-order truth: error against order and cost."""

@@ -1,0 +1,27 @@
+"""Every realisation in the formats of other tools, where `export.formats` asks for some."""
+
+EXPORTS = []
+if STUDY.export.formats:
+    EXPORTS = cell_paths(f"{RESULTS}/realisations/{CELL}/export")
+
+
+rule export:
+    input:
+        rules.crumple.output,
+    # A folder, as a realisation that cannot be exported leaves its reason alone.
+    output:
+        directory(f"{RESULTS}/realisations/{CELL}/export"),
+    params:
+        task=response_task,
+        formats=list(STUDY.export.formats),
+        version=VERSION,
+    log:
+        f"{LOGS}/export/{CELL_FLAT}.log",
+    benchmark:
+        f"{BENCHMARKS}/export/{CELL_FLAT}.tsv"
+    resources:
+        mem_mb=1000,
+    message:
+        "export {wildcards.thickness} {wildcards.overlength} seed {wildcards.seed}"
+    shell:
+        "{RUN}/export.py {params.task:q} {input} {output} {params.formats} > {log} 2>&1"

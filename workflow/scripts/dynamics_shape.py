@@ -1,0 +1,8 @@
+"""Crumple a shape for the dynamics study: dynamics_shape.py MODEL SHAPE_NPZ."""
+
+import sys
+
+from foilstudy.dynamicsstudy.shapes import crumple_shape
+
+name, path = sys.argv[1:]
+crumple_shape(name, path)

@@ -1,0 +1,17 @@
+"""Tables, text and figures of the dynamics study: dynamics_summary.py FOLDER."""
+
+import sys
+from pathlib import Path
+
+from foilstudy.dynamicsstudy.figures import FIGURES
+from foilstudy.dynamicsstudy.records import Study
+from foilstudy.dynamicsstudy.tables import write_chart, write_checks, write_markdown
+from foilstudy.figures.registry import save
+
+folder = Path(sys.argv[1])
+study = Study.read(folder)
+write_chart(study, folder / "reductions.csv")
+write_checks(study, folder / "checks.csv")
+write_markdown(study, folder / "dynamics.md")
+for name, draw in FIGURES.items():
+    save(draw(study), folder / name)
