@@ -10,6 +10,7 @@ import pyuff
 import xarray as xr
 from conftest import DIAMETER, FOIL, GAP_HEIGHT, THICKNESS, cylinder
 from scipy.io import loadmat
+from test_workflow import changed, plan
 
 from foilstudy.config import Export, load_config
 from foilstudy.dynamics import (
@@ -351,7 +352,7 @@ def test_calculix_deck_states_foil_steps_and_what_to_expect(contents, folder):
     assert f"axial {axial:.6g} N/m" in text
 
 
-# --- refusals, realisations and the command line -------------------------------------------------
+# --- refusals, realisations, the command line and the study --------------------------------------
 
 
 def test_unknown_format_is_refused_naming_the_known_ones(contents, tmp_path):
@@ -441,3 +442,8 @@ def test_command_line_refuses_in_one_sentence(realisation, tmp_path):
     realisation.record("diverged", "step 12")
     with pytest.raises(SystemExit, match=r"its status is diverged \(step 12\)"):
         main([str(realisation.folder), "--format=csv", f"--config={config}"])
+
+
+def test_study_exports_every_realisation_if_formats_are_given(tmp_path):
+    jobs = plan(tmp_path, changed(export={"formats": ["mat", "vtu"]}))
+    assert jobs["export"] == jobs["crumple"] == 8

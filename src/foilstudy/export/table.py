@@ -1,0 +1,27 @@
+"""The frequency response as a table."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import numpy as np
+
+from foilstudy.dynamics import DEFINITIONS, directional_stiffness
+from foilstudy.export.contents import Contents
+from foilstudy.stiffness.directional import DIRECTIONS
+
+
+def write(contents: Contents, path: Path) -> None:
+    """Write the dynamic stiffness of every definition and direction, real and imaginary part."""
+    stiffness = directional_stiffness(contents.dynamic_stiffness)
+    header, columns = ["frequency (Hz)"], [contents.frequencies]
+    for d, definition in enumerate(DEFINITIONS):
+        for e, direction in enumerate(DIRECTIONS):
+            for part in ("real", "imag"):
+                header.append(f"{definition} {direction} {part} (N/m)")
+                columns.append(getattr(stiffness[d, e], part))
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(header)
+        writer.writerows([repr(float(x)) for x in row] for row in np.transpose(columns))
