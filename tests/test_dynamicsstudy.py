@@ -31,7 +31,7 @@ def study(coarse_crumple, tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(measure, "read_crumple", lambda *_: crumple)
         patch.setattr(measure, "CUTOFFS_HZ", dict.fromkeys((0, 1, 2), (1000.0,)))
-        patch.setattr(measure, "TOLERANCES", (1e-3,))
+        patch.setattr(measure, "TOLERANCES", dict.fromkeys((0, 1, 2), (1e-3,)))
         patch.setattr(measure, "_FREQUENCIES", np.array([30.0, 300.0, 800.0]))
         made = {
             stressed: measure.chart(plan.Model(500, prestressed=stressed).name, "")

@@ -77,7 +77,7 @@ def chart(name: str, shape_path: str | Path) -> dict:
 def _reductions(model: Model, damping: Damping) -> Iterator[tuple[str, float, Reduction]]:
     wanted = Wanted(highest_hz=HIGHEST_HZ, damping=damping)
     yield "guyan", 0.0, Guyan(wanted)
-    for tolerance in TOLERANCES:
+    for tolerance in TOLERANCES[model.refinements]:
         yield (
             "rational_krylov",
             tolerance,
