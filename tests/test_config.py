@@ -410,6 +410,11 @@ def test_rayleigh_frequencies_rise():
     assert "give two positive, rising frequencies" in text
 
 
+def test_list_of_choices_left_empty():
+    text = problem_of(study(export={"formats": None}))
+    assert text.startswith("export.formats is empty, not a list; write [].")
+
+
 def test_empty_band():
     text = problem_of(study(dynamics={"shown_min_hz": 800}))
     assert text.startswith("dynamics.shown_min_hz is 800 Hz, which is not below")

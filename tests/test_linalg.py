@@ -6,7 +6,16 @@ import scipy.linalg
 import scipy.sparse as sparse
 from conftest import cylinder
 
-from foilstudy.linalg import SolveError, backend, factorisation, factorise, modes_below, pardiso
+from foilstudy.linalg import (
+    BlockKrylov,
+    SolveError,
+    backend,
+    factorisation,
+    factorise,
+    mass_orthonormal,
+    modes_below,
+    pardiso,
+)
 from foilstudy.linalg.pardiso import PardisoFactorisation
 from foilstudy.linalg.superlu import SuperLUFactorisation
 from foilstudy.shell.tangent import mass_matrix, stiffness_matrix
@@ -59,6 +68,35 @@ def test_solution_agrees_with_dense(solver, shift):
     error = 10 * np.finfo(float).eps * np.linalg.cond(matrix.toarray()) * np.abs(expected).max()
     np.testing.assert_allclose(factor.solve(rhs), expected, rtol=0, atol=error)
     np.testing.assert_allclose(factor.solve(rhs[:, 0]), expected[:, 0], rtol=0, atol=error)
+
+
+def test_complex_symmetric_solution_agrees_with_dense(solver):
+    matrix = (plate(9, 8) * (1 + 0.1j) - 3.0 * sparse.eye_array(72)).tocsr()
+    factor = factorise(matrix)
+    rhs = np.random.default_rng(0).standard_normal((72, 3)) + 1j
+    np.testing.assert_allclose(factor.solve(rhs), np.linalg.solve(matrix.toarray(), rhs), rtol=1e-9)
+    assert factor.negative_eigenvalues is None
+
+
+def test_complex_loads_on_a_real_matrix_are_refused(solver):
+    with pytest.raises(TypeError, match="give both parts"):
+        factorise(plate(5, 4)).solve(np.ones(20) * 1j)
+
+
+def test_block_krylov_space_is_orthonormal_and_holds_what_is_new():
+    stiffness, mass = clamped_cylinder()
+    load = np.random.default_rng(1).standard_normal((stiffness.shape[0], 4))
+    load = np.hstack([load, load[:, :1]])  # the last one is known already
+    space, inverse = BlockKrylov(mass), factorise(stiffness)
+    for _ in range(12):
+        load = space.append(inverse, load)
+    assert space.size == 48
+    gram = space.vectors.T @ (mass @ space.vectors)
+    np.testing.assert_allclose(gram, np.eye(48), atol=1e-12)
+    known = space.vectors @ np.ones((48, 2))
+    new = mass_orthonormal(np.hstack([known, load, 0 * load[:, :1]]), mass, space.vectors)
+    assert new.shape[1] == 4
+    np.testing.assert_allclose(space.vectors.T @ (mass @ new), 0, atol=1e-10)
 
 
 def test_solvers_agree_on_a_shell():

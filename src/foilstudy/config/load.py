@@ -115,7 +115,7 @@ def _sentence(kind: str, loc: tuple[str | int, ...], value: Any, ctx: dict[str, 
             return f"{path} has no keys; write some under it, indented: {keys}."
         return f"{path} is {_describe(value)}, not a section; write keys under it: {keys}."
     if kind == "tuple_type":
-        return f"{path} is {_describe(value)}, not a list; write [{_example(value)}]."
+        return f"{path} is {_describe(value)}, not a list; write [{_example(value, unit)}]."
     if kind == "too_short":
         return f"{path} is empty; give at least one value{_in(unit)}."
     if kind == "finite_number":
@@ -225,8 +225,11 @@ def _number_remedy(value: Any, unit: str) -> str:
     return f"give a number{_in(unit)}"
 
 
-def _example(value: Any) -> str:
-    return f"{value}" if isinstance(value, int | float | str) else "50, 130"
+def _example(value: Any, unit: str) -> str:
+    """What a list might hold; of numbers, unless it is one of choices."""
+    if isinstance(value, int | float | str):
+        return f"{value}"
+    return "" if "choice" in unit else "50, 130"
 
 
 def _describe(value: Any) -> str:

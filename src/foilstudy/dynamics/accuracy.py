@@ -32,13 +32,21 @@ class Wanted:
     highest_hz: float = 800.0
     damping: Damping = ModalDamping(0.05)
 
+    def __post_init__(self):
+        if not 0 < self.lowest_hz < self.highest_hz < np.inf:
+            raise ValueError(
+                f"a band from {self.lowest_hz:g} to {self.highest_hz:g} Hz is none; give two "
+                "positive, rising frequencies."
+            )
+
     def checked_at(self, count: int) -> np.ndarray:
         """Frequencies at which the error is estimated, Hz: closer where modes are closer."""
         lowest, highest = np.sqrt(self.lowest_hz), np.sqrt(self.highest_hz)
         return np.linspace(lowest, highest, count) ** 2
 
 
-_CHECKS = 48
+CHECKS = 48
+"""Frequencies at which a band is checked."""
 _CORRECTED_AT = (0.35, 0.7, 1.0)
 """Shares of the highest frequency at which a model is corrected to estimate its error."""
 
@@ -47,7 +55,10 @@ def judged(structure: Structure, model: ReducedModel, wanted: Wanted | None) -> 
     """The model with its error estimate, and up to where that meets the tolerance."""
     if wanted is None:
         return model
-    frequencies = wanted.checked_at(_CHECKS)
+    frequencies = wanted.checked_at(CHECKS)
+    own = np.sqrt(np.maximum(model.free_modes()[0], 0.0)) / (2 * np.pi)
+    inside = own[(own > wanted.lowest_hz) & (own < wanted.highest_hz)]
+    frequencies = np.union1d(frequencies, inside)  # where light damping makes errors largest
     errors = residual_estimate(structure, model, frequencies, wanted.damping)
     return with_estimate(model, wanted, frequencies, errors)
 
@@ -102,7 +113,7 @@ def eigenfrequency_errors(
     """Estimated relative errors of clamped eigenfrequencies of a reduced model.
 
     r^T K^-1 r / (2 lambda) with the residual r of the mode in the whole structure: what it lacks
-    of modes far above it.
+    of modes far above it; of near ones it sees too little, up to five times.
 
     Parameters
     ----------
@@ -110,6 +121,8 @@ def eigenfrequency_errors(
     frequencies, shapes : ndarray, shape (modes,) and (interior, modes)
         From `ReducedModel.clamped_modes`.
     """
+    if not frequencies.size:
+        return np.empty(0)
     values = (2 * np.pi * frequencies) ** 2
     residual = structure.stiffness.interior @ shapes - structure.mass.interior @ (shapes * values)
     lacking = np.einsum("ij,ij->j", residual, structure.static.factor.solve(residual))

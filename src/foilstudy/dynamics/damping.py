@@ -44,7 +44,11 @@ class ModalDamping:
 
 @dataclass(frozen=True)
 class StructuralDamping:
-    """Complex stiffness K (1 + i eta): d = i eta omega_j2, the same at all frequencies."""
+    """Complex stiffness K (1 + i eta): d = i eta omega_j2, the same at all frequencies.
+
+    Of a pre-stressed structure with free rings some eigenvalues are negative; those modes gain
+    energy.
+    """
 
     loss_factor: float
 

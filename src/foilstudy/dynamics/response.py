@@ -17,7 +17,7 @@ rings are held in all three."""
 
 
 def frequency_grid(lowest: float, highest: float, count: int) -> np.ndarray:
-    """Logarithmic grid with exact ends, Hz."""
+    """Logarithmic grid with exact ends, Hz, of two frequencies or more."""
     grid = np.geomspace(lowest, highest, count)
     grid[[0, -1]] = lowest, highest
     return grid
@@ -35,19 +35,44 @@ def interface_dynamic_stiffness(
     ----------
     model : ReducedModel
     frequencies : ndarray
-        Hz, positive.
+        Hz, positive, up to where the model is valid.
     damping : Damping
 
     Returns
     -------
     ndarray of complex, shape (frequencies, 12, 12)
+
+    Raises
+    ------
+    ValueError
+        If a frequency is not positive or beyond the validity of the model.
     """
+    frequencies = checked(frequencies)
+    if frequencies.max() > model.valid_to_hz * (1 + 1e-12):
+        raise ValueError(
+            f"{frequencies.max():g} Hz is beyond {model.valid_to_hz:g} Hz, up to where this "
+            f"{model.method} model is valid; reduce the structure again for a wider band."
+        )
     values, shapes = model.free_modes()
     interface = shapes[:INTERFACE]
-    omega = 2 * np.pi * np.asarray(frequencies, dtype=float)[:, None]
+    omega = 2 * np.pi * frequencies[:, None]
     denominator = values - omega**2 + damping.modal(values, omega)
     receptance = np.einsum("im,fm,jm->fij", interface, 1 / denominator, interface, optimize=True)
     return np.linalg.inv(receptance)
+
+
+def checked(frequencies: np.ndarray) -> np.ndarray:
+    """Frequencies as an array.
+
+    Raises
+    ------
+    ValueError
+        If there is none, or one that is not a positive number.
+    """
+    frequencies = np.atleast_1d(np.asarray(frequencies, dtype=float))
+    if frequencies.ndim != 1 or not frequencies.size or not (frequencies > 0).all():
+        raise ValueError("give one or several positive frequencies in Hz.")
+    return frequencies
 
 
 def directional_stiffness(interface_stiffness: np.ndarray) -> np.ndarray:

@@ -12,6 +12,8 @@ from foilstudy.stiffness import InterfaceSystem, StaticCondensation, condense
 INTERFACE = 12
 """Motions of the two rings; they are the first coordinates of every reduced model."""
 RIGID_MODES = 6
+_RESISTANCE = 1e-6
+"""Of a rigid motion, relative to the terms that cancel; that of sheets is 1e-9 or less."""
 
 
 @dataclass(frozen=True)
@@ -43,8 +45,20 @@ class Structure:
         ------
         SolveError
             If the interior stiffness, rings held, is singular.
+        ValueError
+            If a rigid motion of both rings meets resistance.
         """
-        return cls(stiffness, mass, condense(stiffness), rigid_motions)
+        static = condense(stiffness)
+        moved = np.abs(rigid_motions)
+        resistance = np.einsum("im,ij,jm->m", rigid_motions, static.stiffness, rigid_motions)
+        terms = np.einsum("im,ij,jm->m", moved, np.abs(static.stiffness), moved)
+        if (np.abs(resistance) > _RESISTANCE * terms).any():
+            raise ValueError(
+                "a rigid motion of both rings meets a resistance of "
+                f"{np.max(np.abs(resistance) / terms):.1e} of its terms: the sheet is held by "
+                "something else than its rings, or a ring's motion is not rigid."
+            )
+        return cls(stiffness, mass, static, rigid_motions)
 
     @property
     def stress_free(self) -> bool:

@@ -63,8 +63,12 @@ def cost(study: Study):
             _tolerance(ax)
             ax.set_xscale("log")
             ax.set_yscale("log")
-            unknowns = study.charts[model]["unknowns"]
-            ax.set_title(f"{thickness} µm, {model.size_mm:g} mm, {unknowns:,} unknowns")
+            chart = study.charts[model]
+            damping = chart["damping"].removesuffix("Damping").lower()
+            ax.set_title(
+                f"{thickness} µm, {model.size_mm:g} mm: {chart['unknowns']:,} unknowns,\n"
+                f"{damping} damping"
+            )
     for ax in panels[1]:
         ax.set_xlabel("processor time of the reduction (s)")
     for ax in panels[:, 0]:

@@ -78,16 +78,24 @@ def _panel(ax, magnitude, static) -> None:
     drawn = False
     for j, colour in enumerate(ordered_colours(overlengths.size)):
         curves = magnitude.isel(overlength=j).transpose("seed", "frequency").to_numpy()
-        curves = curves[np.isfinite(curves).all(axis=1)]
-        if not len(curves):
+        curves = curves[np.isfinite(curves).any(axis=1)]
+        # a reduced model that is not valid up to the end of the band leaves the rest out
+        known = np.isfinite(curves).any(axis=0)
+        if not known.any():
             continue
         drawn = True
+        curves = curves[:, known]
         ax.fill_between(
-            frequency, curves.min(axis=0), curves.max(axis=0), color=colour, alpha=BAND_ALPHA, lw=0
+            frequency[known],
+            np.nanmin(curves, axis=0),
+            np.nanmax(curves, axis=0),
+            color=colour,
+            alpha=BAND_ALPHA,
+            lw=0,
         )
         ax.plot(
-            frequency,
-            np.median(curves, axis=0),
+            frequency[known],
+            np.nanmedian(curves, axis=0),
             color=colour,
             lw=1.4,
             ls=line_style(j),

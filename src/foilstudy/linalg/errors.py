@@ -1,5 +1,18 @@
 """Failures of the linear algebra."""
 
+import numpy as np
+
 
 class SolveError(RuntimeError):
     """A factorisation failed or a solution does not satisfy its equations."""
+
+
+def refuse_complex(rhs: np.ndarray, dtype: np.dtype) -> None:
+    """Refuse a complex right-hand side of a real matrix, whose imaginary part would be lost.
+
+    Raises
+    ------
+    TypeError
+    """
+    if np.iscomplexobj(rhs) and not np.issubdtype(dtype, np.complexfloating):
+        raise TypeError("a real factorisation solves for real right-hand sides; give both parts.")

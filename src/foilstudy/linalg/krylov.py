@@ -11,6 +11,8 @@ _ROOM = 384
 """Vectors for which memory is taken at once."""
 _DEPENDENT = 1e-20
 """Squared length, of 1 at first, below which a direction counts as known."""
+_ROUNDING = 1e-14
+"""The same where what is left of dependent directions is rounding."""
 _KEPT, _PASSES_MAX = 0.1, 3
 """Squared length left by an orthogonalisation that need not be repeated."""
 
@@ -89,15 +91,18 @@ def mass_orthonormal(block: np.ndarray, mass: sparse.csr_matrix, against: np.nda
     ndarray, shape (n, at most k)
     """
     gram = against.T @ (mass @ against)
-    block = block / np.sqrt(np.einsum("ij,ij->j", block, mass @ block))
+    lengths = np.sqrt(np.einsum("ij,ij->j", block, mass @ block))
+    block = block[:, lengths > 0] / lengths[lengths > 0]
     for _ in range(2):
         if against.shape[1]:
             block = block - against @ np.linalg.solve(gram, against.T @ (mass @ block))
-        block, _ = _orthonormal(block, mass)
+        block, _ = _orthonormal(block, mass, _ROUNDING)
     return block
 
 
-def _orthonormal(block: np.ndarray, mass: sparse.csr_matrix) -> tuple[np.ndarray, float]:
+def _orthonormal(
+    block: np.ndarray, mass: sparse.csr_matrix, dependent: float = _DEPENDENT
+) -> tuple[np.ndarray, float]:
     """Mass-orthonormal basis of the columns, those that are dependent left out.
 
     Returns also the smallest squared length of what is kept.
@@ -105,5 +110,5 @@ def _orthonormal(block: np.ndarray, mass: sparse.csr_matrix) -> tuple[np.ndarray
     if not block.shape[1]:
         return block, 1.0
     values, vectors = np.linalg.eigh(block.T @ (mass @ block))
-    kept = values > _DEPENDENT
+    kept = values > dependent
     return block @ (vectors[:, kept] / np.sqrt(values[kept])), values[kept].min(initial=1.0)

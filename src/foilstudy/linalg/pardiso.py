@@ -13,7 +13,7 @@ from importlib import metadata
 import numpy as np
 import scipy.sparse as sparse
 
-from foilstudy.linalg.errors import SolveError
+from foilstudy.linalg.errors import SolveError, refuse_complex
 
 _SYMMETRIC_INDEFINITE, _COMPLEX_SYMMETRIC = -2, 6
 _ANALYSE_AND_FACTOR, _SOLVE, _RELEASE = 12, 33, -1
@@ -109,6 +109,7 @@ class PardisoFactorisation:
 
     def solve(self, rhs: np.ndarray) -> np.ndarray:
         """Solve for one or several right-hand sides, shape (n,) or (n, k)."""
+        refuse_complex(rhs, self._job.values.dtype)
         return self._run(_SOLVE, np.asfortranarray(rhs, dtype=self._job.values.dtype))
 
     def _run(self, phase: int, rhs: np.ndarray) -> np.ndarray:

@@ -6,7 +6,7 @@ import numpy as np
 import scipy.sparse as sparse
 from scipy.sparse.linalg import splu
 
-from foilstudy.linalg.errors import SolveError
+from foilstudy.linalg.errors import SolveError, refuse_complex
 
 
 class SuperLUFactorisation:
@@ -32,4 +32,5 @@ class SuperLUFactorisation:
 
     def solve(self, rhs: np.ndarray) -> np.ndarray:
         """Solve for one or several right-hand sides."""
+        refuse_complex(rhs, self._dtype)
         return self._factor.solve(np.ascontiguousarray(rhs, dtype=self._dtype))

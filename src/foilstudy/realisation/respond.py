@@ -44,7 +44,7 @@ def respond(task: ResponseTask, crumple_path: Path, path: Path) -> None:
     if status in USABLE:
         try:
             quantities = _measure(task, values, attributes)
-            message += _beyond_validity(task, quantities)
+            message = "; ".join(filter(None, (message, _beyond_validity(task, quantities))))
         except MACHINE_FAULTS:
             raise
         except Exception as error:  # a study must survive any one realisation
@@ -61,10 +61,12 @@ def _beyond_validity(task: ResponseTask, quantities: dict[str, Quantity]) -> str
     if error <= options.tolerance:
         return ""
     valid_to = quantities["valid_to_frequency"].values
+    remedy = "lower dynamics.shown_max_hz or raise dynamics.tolerance"
+    if options.reduction != "rational_krylov":
+        remedy = f"set dynamics.reduction: rational_krylov, or {remedy}"
     return (
-        f"; dynamic stiffness only to {valid_to:.0f} Hz, as the {options.reduction} model is wrong "
-        f"by about {100 * error:.2g} % in the shown band: set dynamics.reduction: rational_krylov, "
-        "raise or remove dynamics.cutoff_hz, or lower dynamics.shown_max_hz"
+        f"dynamic stiffness only to {valid_to:.0f} Hz, as the {options.reduction} model is wrong "
+        f"by about {100 * error:.2g} % in the shown band: {remedy}"
     )
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from foilstudy.config import Dynamics
@@ -22,6 +24,7 @@ from foilstudy.dynamics import (
     frequency_grid,
 )
 from foilstudy.dynamics.reductions.by_need import with_enough_modes
+from foilstudy.linalg import factorise, modes_below
 from foilstudy.patch import RING_ROWS, Patch, knot_points
 from foilstudy.realisation.record import Quantity
 
@@ -65,10 +68,15 @@ def dynamic_quantities(
     """Everything that depends on the frequency; NaN beyond where the reduced model is valid."""
     model = reduced(options, structure)
     grid = frequency_grid(options.shown_min_hz, options.shown_max_hz, options.frequencies)
-    stiffness = dynamic_stiffness(model, grid, damping_of(options))
-    stiffness[..., grid > model.valid_to_hz] = np.nan
+    valid = grid <= model.valid_to_hz
+    stiffness = np.full((3, 2, grid.size), np.nan + 0j)
+    if valid.any():
+        stiffness[..., valid] = dynamic_stiffness(model, grid[valid], damping_of(options))
+    modes = _modes_of(options, model, structure)
+    count = np.searchsorted(modes.all_hz, grid).astype(float)
+    count[~valid] = np.nan
     dims = ("definition", "direction", "frequency")
-    return {
+    quantities = {
         "frequency": Quantity(grid, "Hz", "frequency", ("frequency",)),
         "dynamic_stiffness_re": Quantity(
             stiffness.real, "N/m", "real part of the dynamic stiffness", dims
@@ -85,22 +93,48 @@ def dynamic_quantities(
         "valid_to_frequency": Quantity(
             model.valid_to_hz, "Hz", "frequency up to which that meets the tolerance"
         ),
-    } | _modes(options, model, structure, patch)
+        "mode_count": Quantity(
+            count, "1", "eigenfrequencies with clamped rings below a frequency", ("frequency",)
+        ),
+    }
+    return quantities | _mode_quantities(options, modes, patch)
 
 
-def _modes(
-    options: Dynamics, model: ReducedModel, structure: Structure, patch: Patch
-) -> dict[str, Quantity]:
-    """Modes with both rings held, as far as the model has them; the others are NaN."""
-    grid = frequency_grid(options.shown_min_hz, options.shown_max_hz, options.frequencies)
-    count = np.searchsorted(model.clamped_eigenfrequencies(), grid).astype(float)
-    count[grid > model.valid_to_hz] = np.nan
-    frequencies, shapes = model.clamped_modes(max(options.eigenfrequencies, options.mode_shapes))
-    wrong = eigenfrequency_errors(structure, frequencies, shapes) > options.tolerance
-    valid = int(wrong.argmax()) if wrong.any() else frequencies.size
+@dataclass(frozen=True)
+class _Modes:
+    """Modes with both rings held: all frequencies, and the first modes that are right; Hz."""
+
+    all_hz: np.ndarray
+    first_hz: np.ndarray
+    shapes: np.ndarray
+
+
+def _modes_of(options: Dynamics, model: ReducedModel, structure: Structure) -> _Modes:
+    """From the reduced model; directly where the rings do not move all that there are.
+
+    That is so of symmetric sheets, and the inertia of the whole structure tells.
+    """
+    kept = max(options.eigenfrequencies, options.mode_shapes)
+    all_hz = model.clamped_eigenfrequencies()
+    frequencies, shapes = model.clamped_modes(kept)
+    limit = (2 * np.pi * min(model.valid_to_hz, options.shown_max_hz)) ** 2
+    k, m = structure.stiffness.interior, structure.mass.interior
+    count = factorise((k - limit * m).tocsr()).negative_eigenvalues
+    if count != (all_hz < np.sqrt(limit) / (2 * np.pi)).sum():
+        modes = modes_below(k, m, limit)
+        all_hz = np.sqrt(modes.eigenvalues) / (2 * np.pi)
+        return _Modes(all_hz, all_hz[:kept], modes.shapes[:, :kept])
+    # a fifth, as the estimate may see too little
+    right = eigenfrequency_errors(structure, frequencies, shapes) <= options.tolerance / 5
+    known = frequencies.size if right.all() else int((~right).argmax())
+    return _Modes(all_hz, frequencies[:known], shapes[:, :known])
+
+
+def _mode_quantities(options: Dynamics, modes: _Modes, patch: Patch) -> dict[str, Quantity]:
+    """Those that are known; the other eigenfrequencies are NaN."""
     eigenfrequencies = np.full(options.eigenfrequencies, np.nan)
-    known = min(valid, options.eigenfrequencies)
-    eigenfrequencies[:known] = frequencies[:known]
+    known = modes.first_hz[: options.eigenfrequencies]
+    eigenfrequencies[: known.size] = known
     quantities = {
         "eigenfrequency": Quantity(
             eigenfrequencies, "Hz", "eigenfrequencies with clamped rings", ("mode",)
@@ -108,14 +142,11 @@ def _modes(
         "first_eigenfrequency": Quantity(
             eigenfrequencies[0], "Hz", "first eigenfrequency with clamped rings"
         ),
-        "mode_count": Quantity(
-            count, "1", "eigenfrequencies with clamped rings below a frequency", ("frequency",)
-        ),
     }
-    shown = min(options.mode_shapes, valid)
-    if shown:
+    shapes = modes.shapes[:, : options.mode_shapes]
+    if shapes.shape[1]:
         quantities["mode_shape"] = Quantity(
-            surface_modes(patch, shapes[:, :shown]).astype(np.float32),
+            surface_modes(patch, shapes).astype(np.float32),
             "m/sqrt(kg m2)",
             "mass-normalised displacement of the surface at the knots, clamped rings",
             ("shape_mode", "component", "node_row", "node_column"),

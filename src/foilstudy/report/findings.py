@@ -151,7 +151,9 @@ def dynamic_findings(cube: xr.Dataset) -> list[str]:
     for direction in map(str, cube["direction"].values):
         curves = thickest.sel(direction=direction)
         before = _ratio_of_extremes(curves.isel(frequency=0))
-        after = _ratio_of_extremes(np.exp(np.log(curves.isel(frequency=top)).mean("frequency")))
+        after = _ratio_of_extremes(
+            np.exp(np.log(curves.isel(frequency=top)).mean("frequency", skipna=False))
+        )
         if before and after and cube.sizes["overlength"] > 1:
             sentences.append(
                 f"At {nominal(float(cube['thickness'][-1]))} µm the stiffest and the softest "

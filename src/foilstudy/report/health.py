@@ -61,7 +61,8 @@ class Health:
     counts
         Realisations by status, in the order of `STATUSES`.
     flagged
-        Every realisation that is not converged.
+        Every realisation that is not converged, or whose reduced model is not valid over the
+        whole band.
     model_limits
         One entry per configuration that left the model anywhere.
     costs
@@ -120,7 +121,11 @@ def _values(cube: xr.Dataset, name: str) -> np.ndarray:
 def _flagged(cube: xr.Dataset, status: xr.DataArray) -> tuple[FlaggedCell, ...]:
     status = status.transpose(*_CELL)
     cells = []
-    for where in np.argwhere(status.values != "converged"):
+    wrong = status.values != "converged"
+    if "valid_to_frequency" in cube:
+        valid_to = cube["valid_to_frequency"].transpose(*_CELL).values
+        wrong |= valid_to < float(cube["frequency"][-1])  # a reduced model that ends before
+    for where in np.argwhere(wrong):
         cell = cube.isel(dict(zip(_CELL, where, strict=True)))
         cells.append(
             FlaggedCell(

@@ -44,11 +44,12 @@ class HintzHerting:
             bordered(structure.stiffness), bordered(m), limit=(2 * np.pi * self.cutoff_hz) ** 2
         )
         constraint = static.constraint_modes
-        elastic = modes.shapes[:, structure.rigid_modes :]
+        by_size = np.argsort(np.abs(modes.eigenvalues))
+        elastic = modes.shapes[:, np.sort(by_size[structure.rigid_modes :])]
         residualised = elastic[:-INTERFACE] - constraint @ elastic[-INTERFACE:]
         relief = static.factor.solve(m.interior @ constraint + m.coupling)
         if structure.stress_free:  # rigid motions only: inertia relief in the proper sense
-            relief = relief @ modes.shapes[-INTERFACE:, : structure.rigid_modes]
+            relief = relief @ structure.rigid_motions
         basis = _orthonormal(np.hstack([relief, residualised]))
         return judged(structure, project(structure, basis, "hintz_herting"), self.wanted)
 
