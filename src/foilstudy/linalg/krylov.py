@@ -9,10 +9,8 @@ from foilstudy.linalg.factorisation import Factorisation
 
 _ROOM = 384
 """Vectors for which memory is taken at once."""
-_DEPENDENT = 1e-20
+_DEPENDENT = 1e-14
 """Squared length, of 1 at first, below which a direction counts as known."""
-_ROUNDING = 1e-14
-"""The same where what is left of dependent directions is rounding."""
 _KEPT, _PASSES_MAX = 0.1, 3
 """Squared length left by an orthogonalisation that need not be repeated."""
 
@@ -37,6 +35,7 @@ class BlockKrylov:
     def __init__(self, mass: sparse.csr_matrix):
         self._mass = mass
         self._vectors = np.empty((mass.shape[0], _ROOM), order="F")
+        self._last: list[tuple[np.ndarray, np.ndarray]] = []
         self.size = 0
 
     @property
@@ -54,12 +53,17 @@ class BlockKrylov:
             space is exhausted.
         """
         block = inverse.solve(load)
-        block /= np.sqrt(np.einsum("ij,ij->j", block, self._mass @ block))
+        heavy = self._mass @ block
+        lengths = np.sqrt(np.einsum("ij,ij->j", block, heavy))
+        block, heavy = block / lengths, heavy / lengths
         # most of it lies in the last two blocks: without that, one pass over all of them will do
-        block = self._without(block, max(0, self.size - 2 * load.shape[1]))
-        block, _ = _orthonormal(block, self._mass)
+        for known, known_heavy in self._last:
+            part = known_heavy.T @ block
+            block, heavy = block - known @ part, heavy - known_heavy @ part
+        block, heavy, _ = _orthonormal(block, heavy)
         for _ in range(_PASSES_MAX):
-            block, smallest = _orthonormal(self._without(block), self._mass)
+            block = block - self.vectors @ (self.vectors.T @ heavy)
+            block, heavy, smallest = _orthonormal(block, self._mass @ block)
             if smallest > _KEPT:
                 break
         end = self.size + block.shape[1]
@@ -68,12 +72,8 @@ class BlockKrylov:
             self._vectors = np.asfortranarray(np.hstack([self._vectors, room]))
         self._vectors[:, self.size : end] = block
         self.size = end
-        return self._mass @ block
-
-    def _without(self, block: np.ndarray, first: int = 0) -> np.ndarray:
-        """The block without its part in the basis from vector `first` on."""
-        known = self.vectors[:, first:]
-        return block - known @ (known.T @ (self._mass @ block))
+        self._last = [*self._last[-1:], (block, heavy)]
+        return heavy
 
 
 def mass_orthonormal(block: np.ndarray, mass: sparse.csr_matrix, against: np.ndarray) -> np.ndarray:
@@ -96,19 +96,19 @@ def mass_orthonormal(block: np.ndarray, mass: sparse.csr_matrix, against: np.nda
     for _ in range(2):
         if against.shape[1]:
             block = block - against @ np.linalg.solve(gram, against.T @ (mass @ block))
-        block, _ = _orthonormal(block, mass, _ROUNDING)
+        block, _, _ = _orthonormal(block, mass @ block)
     return block
 
 
-def _orthonormal(
-    block: np.ndarray, mass: sparse.csr_matrix, dependent: float = _DEPENDENT
-) -> tuple[np.ndarray, float]:
+def _orthonormal(block: np.ndarray, heavy: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
     """Mass-orthonormal basis of the columns, those that are dependent left out.
 
-    Returns also the smallest squared length of what is kept.
+    `heavy` is the mass times the block; returns both for the basis, and the smallest squared
+    length of what is kept.
     """
     if not block.shape[1]:
-        return block, 1.0
-    values, vectors = np.linalg.eigh(block.T @ (mass @ block))
-    kept = values > dependent
-    return block @ (vectors[:, kept] / np.sqrt(values[kept])), values[kept].min(initial=1.0)
+        return block, heavy, 1.0
+    values, vectors = np.linalg.eigh(block.T @ heavy)
+    kept = values > _DEPENDENT
+    turn = vectors[:, kept] / np.sqrt(values[kept])
+    return block @ turn, heavy @ turn, float(values[kept].min(initial=1.0))

@@ -22,7 +22,8 @@ from foilstudy.linalg import BlockKrylov, factorise
 _FIRST_SHIFT = 0.6
 """Share of the highest frequency. With equally many vectors one shift is as accurate as two to
 five (docs/dynamics.md), which cost a factorisation each."""
-_MOMENTS_BETWEEN_CHECKS = 2
+_MODES_SHARE, _GROWTH = 1.5, 1.05
+"""When to check: vectors over modes below the shift, and over those of the check before."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +33,7 @@ class RationalKrylov:
     Attributes
     ----------
     wanted : Wanted
-        The error estimate is the change by the last two moments, so of the model without them.
+        The error estimate is the change by the last moments, so of the model without them.
     moments_per_shift : int
         Blocks of 12 vectors before a new shift is set, where the change is largest.
     shifts_max : int
@@ -86,18 +87,18 @@ class _Space:
     def moments(self, shift_hz: float, count: int) -> Iterator[bool]:
         """Add moments at a frequency; yields False where there is nothing left to add.
 
-        Every few moments, but not before there are as many vectors as modes below the shift.
+        Now and then, but at first not before there are more vectors than modes below the shift.
         """
         k, m = self._structure.stiffness.interior, self._structure.mass.interior
         inverse = factorise((k - (2 * np.pi * shift_hz) ** 2 * m).tocsr())
-        load = self._inertia
+        load, check_at = self._inertia, _MODES_SHARE * inverse.negative_eigenvalues
         for moment in range(1, count + 1):
             load = self._krylov.append(inverse, load)
             if not load.shape[1]:
                 yield False
                 return
-            enough = self._krylov.size > inverse.negative_eigenvalues
-            if moment == count or enough and moment % _MOMENTS_BETWEEN_CHECKS == 0:
+            if moment == count or self._krylov.size >= check_at:
+                check_at = max(self._krylov.size + 2 * INTERFACE, _GROWTH * self._krylov.size)
                 yield True
 
     def model(self) -> ReducedModel:
