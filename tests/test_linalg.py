@@ -12,6 +12,7 @@ from foilstudy.linalg import (
     backend,
     factorisation,
     factorise,
+    lowest_modes,
     mass_orthonormal,
     modes_below,
     pardiso,
@@ -97,6 +98,16 @@ def test_block_krylov_space_is_orthonormal_and_holds_what_is_new():
     new = mass_orthonormal(np.hstack([known, load, 0 * load[:, :1]]), mass, space.vectors)
     assert new.shape[1] == 4
     np.testing.assert_allclose(space.vectors.T @ (mass @ new), 0, atol=1e-10)
+
+
+@pytest.mark.parametrize("count", [5, 400])
+def test_lowest_modes(solver, count):
+    stiffness, mass = clamped_cylinder()
+    modes = lowest_modes(stiffness, mass, factorise(stiffness), count)
+    exact = scipy.linalg.eigh(stiffness.toarray(), mass.toarray(), eigvals_only=True)[:count]
+    np.testing.assert_allclose(modes.eigenvalues, exact, rtol=1e-8)
+    gram = modes.shapes.T @ (mass @ modes.shapes)
+    np.testing.assert_allclose(gram, np.eye(count), atol=1e-8)
 
 
 def test_solvers_agree_on_a_shell():

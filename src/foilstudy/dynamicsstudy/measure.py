@@ -32,6 +32,7 @@ from foilstudy.dynamics.mac import mac
 from foilstudy.dynamicsstudy.plan import (
     CUTOFFS_HZ,
     HIGHEST_HZ,
+    MODAL_REFINEMENTS_MAX,
     MODES,
     RATIO,
     TOLERANCES,
@@ -84,6 +85,8 @@ def _reductions(model: Model, damping: Damping) -> Iterator[tuple[str, float, Re
             tolerance,
             RationalKrylov(Wanted(tolerance, highest_hz=HIGHEST_HZ, damping=damping)),
         )
+    if model.refinements > MODAL_REFINEMENTS_MAX[model.thickness_um]:
+        return
     for cutoff in CUTOFFS_HZ[model.refinements]:
         yield "craig_bampton", cutoff, CraigBampton(cutoff, wanted)
         yield "hintz_herting", cutoff, HintzHerting(cutoff, wanted)

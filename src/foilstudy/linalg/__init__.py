@@ -1,6 +1,6 @@
 """Sparse symmetric factorisation and eigenpairs behind one face."""
 
-from foilstudy.linalg.eigenpairs import Modes, modes_below
+from foilstudy.linalg.eigenpairs import Modes, lowest_modes, modes_below
 from foilstudy.linalg.errors import SolveError
 from foilstudy.linalg.factorisation import Factorisation, backend, factorise
 from foilstudy.linalg.krylov import BlockKrylov, mass_orthonormal
@@ -12,6 +12,7 @@ __all__ = [
     "SolveError",
     "backend",
     "factorise",
+    "lowest_modes",
     "mass_orthonormal",
     "modes_below",
 ]

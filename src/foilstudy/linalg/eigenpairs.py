@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sparse
 from scipy.linalg import cholesky, eigh, solve_triangular
+from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
 
 from foilstudy.linalg.errors import SolveError
 from foilstudy.linalg.factorisation import Factorisation, factorise
@@ -73,6 +74,44 @@ def modes_below(stiffness: sparse.csr_matrix, mass: sparse.csr_matrix, limit: fl
         f"{count} modes lie below the limit, but {found.sum()} converged in a Krylov space of "
         f"{capacity} vectors"
     )
+
+
+def lowest_modes(
+    stiffness: sparse.csr_matrix, mass: sparse.csr_matrix, inverse: Factorisation, count: int
+) -> Modes:
+    """The first modes of K x = lambda M x, with K factored already.
+
+    Parameters
+    ----------
+    stiffness, mass : csr_matrix
+        Symmetric, positive definite.
+    inverse : Factorisation
+        Of the stiffness.
+    count : int
+
+    Raises
+    ------
+    SolveError
+        If they do not converge.
+    """
+    size = stiffness.shape[0]
+    if 4 * count > size:
+        return Modes(
+            *eigh(stiffness.toarray(), mass.toarray(), subset_by_index=(0, min(count, size) - 1))
+        )
+    try:
+        values, shapes = eigsh(
+            stiffness,
+            count,
+            mass,
+            sigma=0.0,
+            OPinv=LinearOperator((size, size), matvec=inverse.solve, dtype=float),
+            v0=np.cos(np.arange(size, dtype=float)),  # any start will do; a fixed one: same bits
+        )
+    except ArpackError as error:
+        raise SolveError(f"the first {count} modes did not converge: {error}") from error
+    order = np.argsort(values)
+    return Modes(values[order], shapes[:, order])
 
 
 class _LanczosBasis:

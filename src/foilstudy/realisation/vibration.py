@@ -24,7 +24,7 @@ from foilstudy.dynamics import (
     frequency_grid,
 )
 from foilstudy.dynamics.reductions.by_need import with_enough_modes
-from foilstudy.linalg import factorise, modes_below
+from foilstudy.linalg import factorise, lowest_modes, modes_below
 from foilstudy.patch import RING_ROWS, Patch, knot_points
 from foilstudy.realisation.record import Quantity
 
@@ -110,9 +110,10 @@ class _Modes:
 
 
 def _modes_of(options: Dynamics, model: ReducedModel, structure: Structure) -> _Modes:
-    """From the reduced model; directly where the rings do not move all that there are.
+    """From the reduced model; directly what it does not have or is not right about.
 
-    That is so of symmetric sheets, and the inertia of the whole structure tells.
+    The rings of a symmetric sheet do not move all its modes, as the inertia of the whole structure
+    tells, and modes beyond the band need not be in the model.
     """
     kept = max(options.eigenfrequencies, options.mode_shapes)
     all_hz = model.clamped_eigenfrequencies()
@@ -121,18 +122,19 @@ def _modes_of(options: Dynamics, model: ReducedModel, structure: Structure) -> _
     k, m = structure.stiffness.interior, structure.mass.interior
     count = factorise((k - limit * m).tocsr()).negative_eigenvalues
     if count != (all_hz < np.sqrt(limit) / (2 * np.pi)).sum():
-        modes = modes_below(k, m, limit)
-        all_hz = np.sqrt(modes.eigenvalues) / (2 * np.pi)
-        return _Modes(all_hz, all_hz[:kept], modes.shapes[:, :kept])
+        all_hz = np.sqrt(modes_below(k, m, limit).eigenvalues) / (2 * np.pi)
+        frequencies = frequencies[:0]
     # a fifth, as the estimate may see too little
-    right = eigenfrequency_errors(structure, frequencies, shapes) <= options.tolerance / 5
-    known = frequencies.size if right.all() else int((~right).argmax())
-    return _Modes(all_hz, frequencies[:known], shapes[:, :known])
+    if frequencies.size == kept:
+        errors = eigenfrequency_errors(structure, frequencies, shapes)
+        if (errors <= options.tolerance / 5).all():
+            return _Modes(all_hz, frequencies, shapes)
+    first = lowest_modes(k, m, structure.static.factor, kept)
+    return _Modes(all_hz, np.sqrt(first.eigenvalues) / (2 * np.pi), first.shapes)
 
 
 def _mode_quantities(options: Dynamics, modes: _Modes, patch: Patch) -> dict[str, Quantity]:
-    """Those that are known; the other eigenfrequencies are NaN."""
-    eigenfrequencies = np.full(options.eigenfrequencies, np.nan)
+    eigenfrequencies = np.full(options.eigenfrequencies, np.nan)  # NaN where there are fewer
     known = modes.first_hz[: options.eigenfrequencies]
     eigenfrequencies[: known.size] = known
     quantities = {
