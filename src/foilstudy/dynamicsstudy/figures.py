@@ -8,7 +8,7 @@ from foilstudy.dynamicsstudy import plan
 from foilstudy.dynamicsstudy.measure import mode_correlation
 from foilstudy.dynamicsstudy.records import METHODS, Study
 from foilstudy.figures.mac import ModeLabels, draw_mac
-from foilstudy.figures.style import GREY, PAGE_WIDTH, new_figure, styled, value_ticks
+from foilstudy.figures.style import GREY, PAGE_WIDTH, decade_ticks, new_figure, styled, value_ticks
 
 _COLOURS = dict(zip(METHODS, ("0.6", "#4c72b0", "#c44e52", "#222222"), strict=True))
 _MARKERS = dict(zip(METHODS, "sv^o", strict=True))
@@ -63,6 +63,7 @@ def cost(study: Study):
             _tolerance(ax)
             ax.set_xscale("log")
             ax.set_yscale("log")
+            decade_ticks(ax.xaxis)
             chart = study.charts[model]
             damping = chart["damping"].removesuffix("Damping").lower()
             ax.set_title(
@@ -110,7 +111,7 @@ def frequency(study: Study):
 @styled
 def mac(study: Study):
     """Clamped modes: of two reductions, and of the same shape on two meshes."""
-    figure = new_figure(PAGE_WIDTH, 10.4)
+    figure = new_figure(1.4 * PAGE_WIDTH, 1.4 * PAGE_WIDTH)
     panels = figure.subplots(2, 2)
     for axes, thickness in zip(panels, plan.THICKNESSES_UM, strict=True):
         coarse = study.charts[plan.Model(thickness)]["modes"]
