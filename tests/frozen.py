@@ -1,0 +1,87 @@
+"""Numbers that must not move: what four cells and the tiny study gave before the code was rearranged.
+
+``reference/*.json`` hold every number of their records: single numbers as hexadecimal floats,
+arrays as digest, size and norm. On the processor that made them they must come out to the last
+bit. On another one the last bits of a force differ and a crumple, which is chaotic, with them; so
+there the stiffness of a kept shape is held to 1e-9 instead (``reference/shape.npz``).
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+
+import numpy as np
+
+from foilstudy.config import load_config
+
+FOLDER = Path(__file__).parent / "reference"
+_COSTS = ("seconds_", "peak_memory")
+
+COMMON = {
+    "mesh": {"element_size_mm": 10},
+    "relaxation": {"ramp_steps": 1000},
+    "stiffness": {"relaxed_refinements": 1},
+    "dynamics": {"shown_max_hz": 200, "frequencies": 20, "eigenfrequencies": 5},
+}
+CELLS = {
+    "t500um_h170mm_corner_krylov": (500, 170, "corner", "rational_krylov"),
+    "t500um_h150mm_one_point_hintz_herting": (500, 150, "one_point", "hintz_herting"),
+    "t50um_h150mm_corner_craig_bampton": (50, 150, "corner", "craig_bampton"),
+    "t50um_h170mm_one_point_guyan": (50, 170, "one_point", "guyan"),
+}
+
+
+def study_of(name: str, **sections):
+    """Configuration of a frozen cell."""
+    thickness, height, element, reduction = CELLS[name]
+    sweep = {"thickness_um": [thickness], "reference_height_mm": [height], "realisations": 1}
+    content = {key: dict(value) for key, value in COMMON.items()} | {"sweep": sweep}
+    content["mesh"]["element"] = element
+    content["dynamics"]["reduction"] = reduction
+    for key, value in sections.items():
+        content[key] = content.get(key, {}) | value
+    return load_config(content)
+
+
+def frozen(values: dict, attributes: dict) -> dict:
+    """A record as it is kept: exact, and small."""
+    numbers = {
+        name: _number(value) for name, value in sorted(values.items()) if not _is_cost(name)
+    }
+    return {"status": attributes.get("status", ""), "values": numbers}
+
+
+def _is_cost(name: str) -> bool:
+    return name.startswith(_COSTS)
+
+
+def _number(value):
+    value = np.asarray(value)
+    if value.ndim == 0:
+        return float(value).hex()
+    digest = hashlib.sha256(np.ascontiguousarray(value).tobytes()).hexdigest()
+    return {"shape": list(value.shape), "digest": digest, "norm": float(np.linalg.norm(value))}
+
+
+def processor() -> str:
+    """What decides the last bits: the instruction set that numba compiles for, and the model."""
+    import llvmlite.binding as llvm
+
+    from foilstudy.provenance import machine
+
+    model = machine().split(", ")[1]
+    return f"{model}, {llvm.get_host_cpu_name()}"
+
+
+def read(name: str) -> dict:
+    """A kept reference."""
+    return json.loads((FOLDER / f"{name}.json").read_text(encoding="utf-8"))
+
+
+def write(name: str, content: dict) -> None:
+    """Keep a reference; only where numbers are meant to change."""
+    FOLDER.mkdir(exist_ok=True)
+    text = json.dumps(content, indent=1)
+    (FOLDER / f"{name}.json").write_text(text + "\n", encoding="utf-8")
