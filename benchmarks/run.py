@@ -25,19 +25,19 @@ from pathlib import Path  # noqa: E402
 
 import numpy as np  # noqa: E402
 
+from foilstudy.base.provenance import machine  # noqa: E402
+from foilstudy.base.record import read_record  # noqa: E402
 from foilstudy.config import load_config  # noqa: E402
-from foilstudy.imperfection import imperfect_cylinder  # noqa: E402
-from foilstudy.patch import cylinder_control_points  # noqa: E402
-from foilstudy.provenance import machine  # noqa: E402
-from foilstudy.realisation.crumple import crumple  # noqa: E402
-from foilstudy.realisation.record import read_record  # noqa: E402
-from foilstudy.realisation.respond import respond  # noqa: E402
-from foilstudy.realisation.scene import foil_of, imperfection_of, patch_of  # noqa: E402
-from foilstudy.realisation.scheme import crumpling_scheme  # noqa: E402
-from foilstudy.relaxation import Ramp, StoppingRule, relax  # noqa: E402
-from foilstudy.relaxation.spectral_mass import SpectralMass  # noqa: E402
-from foilstudy.shell.sheet_model import SheetModel  # noqa: E402
-from foilstudy.warmup import compile_kernels  # noqa: E402
+from foilstudy.config.scene import foil_of, imperfection_of, patch_of  # noqa: E402
+from foilstudy.model.imperfection import imperfect_cylinder  # noqa: E402
+from foilstudy.model.patch import cylinder_control_points  # noqa: E402
+from foilstudy.model.shell.sheet_model import SheetModel  # noqa: E402
+from foilstudy.pipeline.scheme import crumpling_scheme  # noqa: E402
+from foilstudy.solve.relaxation import Ramp, StoppingRule, relax  # noqa: E402
+from foilstudy.solve.relaxation.spectral_mass import SpectralMass  # noqa: E402
+from foilstudy.study.sweep.crumple import crumple  # noqa: E402
+from foilstudy.study.sweep.respond import respond  # noqa: E402
+from foilstudy.study.sweep.warmup import compile_kernels  # noqa: E402
 
 ROOT = Path(__file__).parents[1]
 REPEATS = 7

@@ -23,8 +23,8 @@ from foilstudy.config import (
 )
 from foilstudy.config._yaml import read_yaml
 from foilstudy.config.docs import reference_page, schema_text
-from foilstudy.materials import MATERIALS
-from foilstudy.mesh_size import expected_energy_error
+from foilstudy.model.materials import MATERIALS
+from foilstudy.model.mesh_size import expected_energy_error
 
 CONFIG_FOLDER = Path(__file__).parents[1] / "config"
 CONFIG_FILES = sorted(CONFIG_FOLDER.glob("*.yaml"))

@@ -6,14 +6,14 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from foilstudy.convergence import crumpling, plan, stops
-from foilstudy.convergence.analysis import fit, means, slope
-from foilstudy.convergence.figures import FIGURES
-from foilstudy.convergence.records import Study
-from foilstudy.convergence.tables import write_crumples, write_markdown, write_stops
-from foilstudy.figures.registry import save
-from foilstudy.files import read_json, write_json
-from foilstudy.mesh_size import element_size_for, expected_energy_error
+from foilstudy.base.files import read_json, write_json
+from foilstudy.model.mesh_size import element_size_for, expected_energy_error
+from foilstudy.present.figures.registry import save
+from foilstudy.study.convergence import crumpling, plan, stops
+from foilstudy.study.convergence.analysis import fit, means, slope
+from foilstudy.study.convergence.figures import FIGURES
+from foilstudy.study.convergence.records import Study
+from foilstudy.study.convergence.tables import write_crumples, write_markdown, write_stops
 
 COARSE = plan.Case("corner", 500, 150, 12.0, 0)
 SIZES = np.array(plan.SIZES_MM)

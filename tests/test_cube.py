@@ -9,11 +9,11 @@ import xarray as xr
 import yaml
 
 from foilstudy import load_config, open_cube
-from foilstudy.cube import gather
-from foilstudy.realisation.crumple import crumple
-from foilstudy.realisation.cylinder import cylinder_bounds
-from foilstudy.realisation.record import read_record, write_record
-from foilstudy.realisation.respond import respond
+from foilstudy.base.record import read_record, write_record
+from foilstudy.study.sweep.crumple import crumple
+from foilstudy.study.sweep.cube import gather
+from foilstudy.study.sweep.cylinder import cylinder_bounds
+from foilstudy.study.sweep.respond import respond
 
 CONFIG = load_config(
     {
@@ -56,7 +56,7 @@ def results(tmp_path_factory):
         with pytest.MonkeyPatch.context() as patch:
             if index == CRASHED:
                 patch.setattr(
-                    sys.modules["foilstudy.realisation.respond"], "fixed_stiffness", explode
+                    sys.modules["foilstudy.study.sweep.respond"], "fixed_stiffness", explode
                 )
             respond(CONFIG.response_task(cell), folder / "crumple.nc", folder / "response.nc")
     cylinder_bounds(CONFIG, results / "cylinder.nc")

@@ -10,7 +10,8 @@ from conftest import DIAMETER, FEP, GAP_HEIGHT, REFERENCE_HEIGHT, THICKNESS, cyl
 from scipy.sparse.linalg import eigsh
 
 from foilstudy.config import Dynamics
-from foilstudy.dynamics import (
+from foilstudy.linalg import factorise
+from foilstudy.measure.dynamics import (
     DEFINITIONS,
     CraigBampton,
     Guyan,
@@ -31,17 +32,16 @@ from foilstudy.dynamics import (
     relative_error,
     residual_estimate,
 )
-from foilstudy.dynamics.reduction import project
-from foilstudy.dynamics.reductions.by_need import with_enough_modes
-from foilstudy.dynamics.structure import INTERFACE, bordered
-from foilstudy.linalg import factorise
-from foilstudy.realisation.crumpled import Crumple
-from foilstudy.realisation.structures import prestressed_structure, stress_free_structure
-from foilstudy.realisation.vibration import dynamic_quantities
-from foilstudy.sheet import Foil
-from foilstudy.shell.elements import DEFAULT_ELEMENT
-from foilstudy.stiffness import InterfaceSystem, fixed_stiffness
-from foilstudy.stiffness.rings import interface_rigid_modes
+from foilstudy.measure.dynamics.reduction import project
+from foilstudy.measure.dynamics.reductions.by_need import with_enough_modes
+from foilstudy.measure.dynamics.structure import INTERFACE, bordered
+from foilstudy.measure.stiffness import InterfaceSystem, fixed_stiffness
+from foilstudy.measure.stiffness.rings import interface_rigid_modes
+from foilstudy.model.foil import Foil
+from foilstudy.model.shell.elements import DEFAULT_ELEMENT
+from foilstudy.pipeline.crumpled import Crumple
+from foilstudy.pipeline.structures import prestressed_structure, stress_free_structure
+from foilstudy.pipeline.vibration import dynamic_quantities
 
 CUTOFF_HZ, BAND_HZ = 1000.0, 500.0
 FIVE_PERCENT = ModalDamping(0.05)

@@ -5,13 +5,13 @@ import csv
 import numpy as np
 import pytest
 
-from foilstudy.dynamicsstudy import measure, plan, records, tables
-from foilstudy.dynamicsstudy.figures import FIGURES
-from foilstudy.figures.registry import save
-from foilstudy.files import read_json, write_json
-from foilstudy.realisation.crumpled import Crumple
-from foilstudy.sheet import Foil
-from foilstudy.shell.elements import DEFAULT_ELEMENT
+from foilstudy.base.files import read_json, write_json
+from foilstudy.model.foil import Foil
+from foilstudy.model.shell.elements import DEFAULT_ELEMENT
+from foilstudy.pipeline.crumpled import Crumple
+from foilstudy.present.figures.registry import save
+from foilstudy.study.dynamics import measure, plan, records, tables
+from foilstudy.study.dynamics.figures import FIGURES
 
 
 def test_names_say_which_model():

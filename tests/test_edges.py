@@ -4,7 +4,11 @@ import numpy as np
 import pytest
 from conftest import FEP, rotation
 
-from foilstudy.equilibrium.edges import (
+from foilstudy.linalg import factorise
+from foilstudy.model.patch import Patch, cylinder_control_points, fitted_control_points, knot_points
+from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.tangent import stiffness_matrix
+from foilstudy.model.supports.edges import (
     RIGID_LINES,
     SIMPLY_SUPPORTED,
     EdgeCondition,
@@ -17,17 +21,13 @@ from foilstudy.equilibrium.edges import (
     edge_offset,
     symmetric,
 )
-from foilstudy.equilibrium.interpolation import (
+from foilstudy.model.supports.interpolation import (
     along_weights,
     around_weights,
     as_field,
     as_vector,
 )
-from foilstudy.equilibrium.loads import area_load, point_load
-from foilstudy.linalg import factorise
-from foilstudy.patch import Patch, cylinder_control_points, fitted_control_points, knot_points
-from foilstudy.shell.sheet_model import SheetModel
-from foilstudy.shell.tangent import stiffness_matrix
+from foilstudy.model.supports.loads import area_load, point_load
 
 THICKNESS = 2e-3
 

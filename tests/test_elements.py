@@ -15,12 +15,12 @@ from wild_sheets import (
     wild_sheet,
 )
 
-from foilstudy.patch import Patch, fitted_control_points
-from foilstudy.sheet import Material
-from foilstudy.shell.elements import Corner, OnePoint, Sampled, corner_kernel, sampling
-from foilstudy.shell.sheet_model import SheetModel
-from foilstudy.shell.tangent import mass_matrix, stiffness_matrix
-from foilstudy.shell.yielding import von_mises_stress
+from foilstudy.model.foil import Material
+from foilstudy.model.patch import Patch, fitted_control_points
+from foilstudy.model.shell.elements import Corner, OnePoint, Sampled, corner_kernel, sampling
+from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.tangent import mass_matrix, stiffness_matrix
+from foilstudy.model.shell.yielding import von_mises_stress
 
 CHUNK = corner_kernel.CHUNK
 CHUNK_EDGES = (5, CHUNK - 2, CHUNK - 1, CHUNK, CHUNK + 1, CHUNK + 2, 2 * CHUNK, 2 * CHUNK + 1)

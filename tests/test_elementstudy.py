@@ -5,16 +5,16 @@ import csv
 import numpy as np
 import pytest
 
-from foilstudy.elementstudy import VARIANT_NAMES, records
-from foilstudy.elementstudy.bending import ring_error
-from foilstudy.elementstudy.chart import draw
-from foilstudy.elementstudy.crumpling import FINE_SIZES, Crumples
-from foilstudy.elementstudy.frozen import FrozenShape, frozen_errors, stiffness_of
-from foilstudy.elementstudy.scene import COARSE, DIAMETER, REFERENCE_HEIGHT
-from foilstudy.elementstudy.summary import FROZEN_UM, Study, write_csv, write_markdown
-from foilstudy.elementstudy.variants import BASELINE, DEFAULT, VARIANTS
-from foilstudy.patch import Patch, cylinder_control_points
-from foilstudy.shell.elements import DEFAULT_ELEMENT
+from foilstudy.model.patch import Patch, cylinder_control_points
+from foilstudy.model.shell.elements import DEFAULT_ELEMENT
+from foilstudy.study.elements import VARIANT_NAMES, records
+from foilstudy.study.elements.bending import ring_error
+from foilstudy.study.elements.chart import draw
+from foilstudy.study.elements.crumpling import FINE_SIZES, Crumples
+from foilstudy.study.elements.frozen import FrozenShape, frozen_errors, stiffness_of
+from foilstudy.study.elements.scene import COARSE, DIAMETER, REFERENCE_HEIGHT
+from foilstudy.study.elements.summary import FROZEN_UM, Study, write_csv, write_markdown
+from foilstudy.study.elements.variants import BASELINE, DEFAULT, VARIANTS
 
 
 def test_the_workflow_lists_every_variant():

@@ -12,8 +12,12 @@ from conftest import DIAMETER, FOIL, GAP_HEIGHT, THICKNESS, cylinder
 from scipy.io import loadmat
 from test_workflow import changed, plan
 
+from foilstudy.base.record import Quantity, write_record
 from foilstudy.config import Export, load_config
-from foilstudy.dynamics import (
+from foilstudy.export import FORMATS, Contents, write
+from foilstudy.export.contents import surface_grid
+from foilstudy.export.energies import element_energies, principal_strains
+from foilstudy.measure.dynamics import (
     DEFINITIONS,
     HintzHerting,
     ModalDamping,
@@ -23,22 +27,19 @@ from foilstudy.dynamics import (
     frequency_grid,
     interface_dynamic_stiffness,
 )
-from foilstudy.dynamics.damping_matrix import damping_matrix
-from foilstudy.dynamics.structure import INTERFACE
-from foilstudy.export import FORMATS, Contents, contents_of, export_realisation, write
-from foilstudy.export.__main__ import main
-from foilstudy.export.contents import surface_grid
-from foilstudy.export.energies import element_energies, principal_strains
-from foilstudy.patch import RING_ROWS
-from foilstudy.realisation.crumpled import Crumple
-from foilstudy.realisation.record import Quantity, write_record
-from foilstudy.realisation.structures import stress_free_structure
-from foilstudy.shell.elements import ELEMENTS
-from foilstudy.shell.sheet_model import SheetModel
-from foilstudy.stiffness import DOF_NAMES, fixed_stiffness
-from foilstudy.stiffness.directional import DIRECTIONS
-from foilstudy.surface import SurfaceGrid, sheet_from_grid
-from foilstudy.surface.fit import fitted_patch
+from foilstudy.measure.dynamics.damping_matrix import damping_matrix
+from foilstudy.measure.dynamics.structure import INTERFACE
+from foilstudy.measure.stiffness import DOF_NAMES, fixed_stiffness
+from foilstudy.measure.stiffness.directional import DIRECTIONS
+from foilstudy.model.patch import RING_ROWS
+from foilstudy.model.shell.elements import ELEMENTS
+from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.pipeline.crumpled import Crumple
+from foilstudy.pipeline.structures import stress_free_structure
+from foilstudy.pipeline.surface import SurfaceGrid, sheet_from_grid
+from foilstudy.pipeline.surface.fit import fitted_patch
+from foilstudy.study.sweep.export import contents_of, export_realisation
+from foilstudy.study.sweep.export_command import main
 
 MODES = 4
 RATIO = 0.05

@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from synthetic import MODES_PER_HZ, make_cube, write_crumple, write_response
 
-from foilstudy.figures import FIGURES, FigureInputs, draw_figure, draw_figures
-from foilstudy.figures.crumples import Shape, catalogue, read_shape, typical_configuration
-from foilstudy.figures.render import View, render
-from foilstudy.figures.style import spread
-from foilstudy.patch import Patch, cylinder_control_points
+from foilstudy.model.patch import Patch, cylinder_control_points
+from foilstudy.plot.crumples import Shape, catalogue, read_shape, typical_configuration
+from foilstudy.plot.render import View, render
+from foilstudy.plot.style import spread
+from foilstudy.present.figures import FIGURES, FigureInputs, draw_figure, draw_figures
 
 CUBE_FIGURES = [name for name, spec in FIGURES.items() if spec.needs == ("cube",)]
 SHAPE_FIGURES = [name for name, spec in FIGURES.items() if spec.needs == ("crumple_paths",)]
@@ -57,7 +57,10 @@ def test_every_figure_takes_the_cube_or_records():
 
 
 def test_registry_does_not_import_matplotlib():
-    code = "import sys, foilstudy.figures; assert not {'matplotlib', 'xarray'} & set(sys.modules)"
+    code = (
+        "import sys, foilstudy.present.figures; "
+        "assert not {'matplotlib', 'xarray'} & set(sys.modules)"
+    )
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
@@ -189,7 +192,7 @@ def test_figure_of_a_cube_without_its_quantity_says_what_is_missing(name):
 
 
 def test_dynamic_stiffness_figure_takes_every_definition():
-    from foilstudy.figures import dynamic_stiffness
+    from foilstudy.present.figures import dynamic_stiffness
 
     cube = make_cube(thickness_um=(500.0,), reference_height_mm=(170.0,), seeds=2, cv=scatter)
     for definition in cube["definition"].values:

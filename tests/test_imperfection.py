@@ -5,10 +5,10 @@ import pytest
 from conftest import DIAMETER, FOIL
 
 from foilstudy.config import load_config
-from foilstudy.imperfection import imperfect_cylinder
-from foilstudy.patch import RING_ROWS, Patch, cylinder_control_points
-from foilstudy.realisation.scene import imperfection_of
-from foilstudy.sheet import Imperfection
+from foilstudy.config.scene import imperfection_of
+from foilstudy.model.foil import Imperfection
+from foilstudy.model.imperfection import imperfect_cylinder
+from foilstudy.model.patch import RING_ROWS, Patch, cylinder_control_points
 
 AMPLITUDE, LENGTH = 1e-5, 0.015
 KINDS = ("gaussian", "smoothed", "buckling_modes")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from conftest import rotation
 
-from foilstudy.shell.intersection import self_crossing_share
+from foilstudy.model.shell.intersection import self_crossing_share
 
 
 def extruded(curve, rows=7, height=1.0):

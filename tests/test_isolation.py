@@ -8,8 +8,7 @@ import yaml
 from synthetic import make_cube
 
 from foilstudy.config import ConfigError, Isolation, load_config
-from foilstudy.figures import FIGURES
-from foilstudy.isolation import (
+from foilstudy.measure.isolation import (
     FLOOR,
     PAYLOAD,
     IdealMount,
@@ -19,17 +18,17 @@ from foilstudy.isolation import (
     foil_link,
     in_parallel,
     kept_up_to,
-    mounts,
-    static_spring,
     stiffness_share,
     transmissibility,
 )
-from foilstudy.report.isolation import isolation_findings
-from foilstudy.statistics.isolation import (
+from foilstudy.present.figures import FIGURES
+from foilstudy.present.report.isolation import isolation_findings
+from foilstudy.present.statistics.isolation import (
     isolation_options,
     isolation_table,
     payload_transmissibility,
 )
+from foilstudy.present.statistics.mounts import mounts, static_spring
 
 MASS = 40.0
 SUSPENSION_HZ = 3.0

@@ -19,8 +19,8 @@ from foilstudy.linalg import (
 )
 from foilstudy.linalg.pardiso import PardisoFactorisation
 from foilstudy.linalg.superlu import SuperLUFactorisation
-from foilstudy.shell.tangent import mass_matrix, stiffness_matrix
-from foilstudy.stiffness import InterfaceSystem, Rings
+from foilstudy.measure.stiffness import InterfaceSystem, Rings
+from foilstudy.model.shell.tangent import mass_matrix, stiffness_matrix
 
 BACKENDS = [
     pytest.param(

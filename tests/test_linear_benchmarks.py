@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from conftest import FEP
 
-from foilstudy.equilibrium.edges import constraints, diaphragm
-from foilstudy.shell.elements import DEFAULT_ELEMENT
-from foilstudy.verification import frequencies, linear, stability, theory_cylinder
-from foilstudy.verification.candidates import CANDIDATES
-from foilstudy.verification.frequencies import CylinderCase, cylinder_frequencies
-from foilstudy.verification.linear import plate_points, square_patch
-from foilstudy.verification.theory_cylinder import Cylinder
+from foilstudy.model.shell.elements import DEFAULT_ELEMENT
+from foilstudy.model.supports.edges import constraints, diaphragm
+from foilstudy.study.verification import frequencies, linear, stability, theory_cylinder
+from foilstudy.study.verification.candidates import CANDIDATES
+from foilstudy.study.verification.frequencies import CylinderCase, cylinder_frequencies
+from foilstudy.study.verification.linear import plate_points, square_patch
+from foilstudy.study.verification.theory_cylinder import Cylinder
 
 CORNER, ONE_POINT = CANDIDATES["corner"], CANDIDATES["one_point"]
 LEAST_ORDER = 1.7

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 from conftest import FEP, rotation
 
-from foilstudy.equilibrium.buckling import buckling_modes
-from foilstudy.equilibrium.edges import (
+from foilstudy.model.foil import Material
+from foilstudy.model.patch import Patch, fitted_control_points
+from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.supports.edges import (
     PointHold,
     clamped,
     constraints,
@@ -13,14 +15,12 @@ from foilstudy.equilibrium.edges import (
     edge_offset,
     symmetric,
 )
-from foilstudy.equilibrium.interpolation import as_vector
-from foilstudy.equilibrium.loaded_sheet import LoadedSheet
-from foilstudy.equilibrium.loads import DeadLoad, EdgeMoment, area_load, edge_load, point_load
-from foilstudy.equilibrium.newton import minimise
-from foilstudy.equilibrium.path import follow_load
-from foilstudy.patch import Patch, fitted_control_points
-from foilstudy.sheet import Material
-from foilstudy.shell.sheet_model import SheetModel
+from foilstudy.model.supports.interpolation import as_vector
+from foilstudy.model.supports.loads import DeadLoad, EdgeMoment, area_load, edge_load, point_load
+from foilstudy.solve.equilibrium.newton import minimise
+from foilstudy.solve.paths.buckling import buckling_modes
+from foilstudy.solve.paths.loaded_sheet import LoadedSheet
+from foilstudy.solve.paths.path import follow_load
 
 LENGTH, WIDTH, THICKNESS = 1.0, 0.2, 0.01
 NO_POISSON = Material(youngs_modulus=1e9, poisson_ratio=0.0, density=1.0, yield_stress=1.0)

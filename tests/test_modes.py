@@ -7,18 +7,18 @@ import pytest
 from matplotlib.figure import Figure
 from synthetic import MODES_PER_HZ, make_cube
 
-from foilstudy.dynamics.mac import mac
-from foilstudy.figures.mac import ModeLabels, draw_mac
-from foilstudy.report.modes import modal_density_findings, overlength_findings
-from foilstudy.sheet import Material
-from foilstudy.statistics.modal_density import (
+from foilstudy.measure.dynamics.mac import mac
+from foilstudy.model.foil import Material
+from foilstudy.plot.mac import ModeLabels, draw_mac
+from foilstudy.present.report.modes import modal_density_findings, overlength_findings
+from foilstudy.present.statistics.modal_density import (
     Plate,
     counted_modal_density,
     modal_density,
     plate_modal_density,
     resolved_up_to,
 )
-from foilstudy.statistics.overlength_spread import (
+from foilstudy.present.statistics.overlength_spread import (
     leave_one_out,
     overlength_spread,
     relative_magnitude,

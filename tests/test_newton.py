@@ -5,9 +5,9 @@ import pytest
 import scipy.sparse as sparse
 from scipy.special import ellipe, ellipk
 
-from foilstudy.equilibrium.newton import NewtonOptions, minimise
-from foilstudy.equilibrium.quasi_newton import InverseHessian
 from foilstudy.linalg import factorise
+from foilstudy.solve.equilibrium.newton import NewtonOptions, minimise
+from foilstudy.solve.equilibrium.quasi_newton import InverseHessian
 
 
 class Quadratic:

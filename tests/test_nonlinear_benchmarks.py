@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from foilstudy.verification.candidates import CANDIDATES
-from foilstudy.verification.load_path import run
-from foilstudy.verification.nonlinear import (
+from foilstudy.study.verification.candidates import CANDIDATES
+from foilstudy.study.verification.load_path import run
+from foilstudy.study.verification.nonlinear import (
     BENCHMARKS,
     CASES,
     END_SHEAR,

@@ -5,7 +5,7 @@ import pytest
 from conftest import DIAMETER
 from scipy.interpolate import BSpline
 
-from foilstudy.patch import Patch, cylinder_control_points, knot_points, refine
+from foilstudy.model.patch import Patch, cylinder_control_points, knot_points, refine
 
 
 def spline(control_points, along, around):

@@ -3,7 +3,7 @@
 import re
 from datetime import datetime
 
-from foilstudy.provenance import git_commit, package_versions, provenance
+from foilstudy.base.provenance import git_commit, package_versions, provenance
 
 
 def test_attributes_are_text_and_complete():

@@ -7,13 +7,13 @@ import netCDF4
 import numpy as np
 import pytest
 
+from foilstudy.base.record import Quantity, read_record, write_record
 from foilstudy.config import load_config
-from foilstudy.patch import knot_points
-from foilstudy.realisation.crumple import crumple
-from foilstudy.realisation.cylinder import cylinder_bounds
-from foilstudy.realisation.record import Quantity, read_record, write_record
-from foilstudy.realisation.respond import respond
-from foilstudy.stiffness import fixed_stiffness
+from foilstudy.measure.stiffness import fixed_stiffness
+from foilstudy.model.patch import knot_points
+from foilstudy.study.sweep.crumple import crumple
+from foilstudy.study.sweep.cylinder import cylinder_bounds
+from foilstudy.study.sweep.respond import respond
 
 
 def study(**sections):
@@ -138,7 +138,7 @@ def test_a_fault_of_the_machine_is_no_record(tmp_path, monkeypatch):
     def explode(*_):
         raise MemoryError("no room for the history")
 
-    monkeypatch.setattr(sys.modules["foilstudy.realisation.crumple"], "relax", explode)
+    monkeypatch.setattr(sys.modules["foilstudy.study.sweep.crumple"], "relax", explode)
     with pytest.raises(MemoryError):
         run(study(), tmp_path)
     assert not list(tmp_path.iterdir())
@@ -148,7 +148,7 @@ def test_a_crash_while_crumpling_becomes_a_flagged_record(tmp_path, monkeypatch)
     def explode(*_):
         raise ArithmeticError("no root")
 
-    monkeypatch.setattr(sys.modules["foilstudy.realisation.crumple"], "relax", explode)
+    monkeypatch.setattr(sys.modules["foilstudy.study.sweep.crumple"], "relax", explode)
     records = run(study(), tmp_path)
     assert records.crumple_attributes["status"] == "failed"
     assert records.crumple_attributes["message"] == "ArithmeticError: no root"
@@ -160,7 +160,7 @@ def test_a_crash_while_measuring_becomes_a_flagged_record(tmp_path, monkeypatch)
     def explode(*_):
         raise RuntimeError("no factor")
 
-    monkeypatch.setattr(sys.modules["foilstudy.realisation.respond"], "condense", explode)
+    monkeypatch.setattr(sys.modules["foilstudy.study.sweep.respond"], "condense", explode)
     records = run(study(), tmp_path)
     assert records.crumple_attributes["status"] == "converged"
     assert records.response_attributes["status"] == "failed"

@@ -14,14 +14,14 @@ from conftest import (
 )
 
 from foilstudy.linalg import factorise
-from foilstudy.patch import RING_ROWS, Patch, cylinder_control_points
-from foilstudy.relaxation import Ramp, Scheme, StoppingRule, relax
-from foilstudy.relaxation.damping import AdaptiveViscousDamping
-from foilstudy.relaxation.spectral_mass import SpectralMass
-from foilstudy.sheet import Material
-from foilstudy.shell.sheet_model import SheetModel
-from foilstudy.shell.tangent import stiffness_matrix
-from foilstudy.stiffness import InterfaceSystem, Rings, condense
+from foilstudy.measure.stiffness import InterfaceSystem, Rings, condense
+from foilstudy.model.foil import Material
+from foilstudy.model.patch import RING_ROWS, Patch, cylinder_control_points
+from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.tangent import stiffness_matrix
+from foilstudy.solve.relaxation import Ramp, Scheme, StoppingRule, relax
+from foilstudy.solve.relaxation.damping import AdaptiveViscousDamping
+from foilstudy.solve.relaxation.spectral_mass import SpectralMass
 
 FREE = slice(RING_ROWS, -RING_ROWS)
 SAFETY = 1.5

@@ -15,21 +15,21 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from foilstudy.report import ReportInputs, write_report
-from foilstudy.report.equilibrium import assess_equilibrium, equilibrium_findings
-from foilstudy.report.exponents import exponent_findings
-from foilstudy.report.health import assess
-from foilstudy.report.laws import Exponent, read_laws
-from foilstudy.report.mesh import (
+from foilstudy.present.report import ReportInputs, write_report
+from foilstudy.present.report.equilibrium import assess_equilibrium, equilibrium_findings
+from foilstudy.present.report.exponents import exponent_findings
+from foilstudy.present.report.health import assess
+from foilstudy.present.report.laws import Exponent, read_laws
+from foilstudy.present.report.mesh import (
     assess_mesh,
     element_kind,
     mesh_sentence,
     share_sentence,
     stated_error_sentence,
 )
-from foilstudy.report.numerals import fixed, number, percent_range
-from foilstudy.report.prestress import prestress_findings, relaxed_findings, relaxed_rows
-from foilstudy.report.viewer import (
+from foilstudy.present.report.numerals import fixed, number, percent_range
+from foilstudy.present.report.prestress import prestress_findings, relaxed_findings, relaxed_rows
+from foilstudy.present.report.viewer import (
     choose_shapes,
     decode_mode,
     decode_points,
@@ -37,7 +37,7 @@ from foilstudy.report.viewer import (
     pack_shape,
     viewer_data,
 )
-from foilstudy.statistics import (
+from foilstudy.present.statistics import (
     powerlaw_table,
     stiffness_summary,
     variability_table,
@@ -319,7 +319,7 @@ def test_shapes_decode_to_the_crumples(study):
 
 
 def test_fine_mesh_is_thinned_and_keeps_its_edges(tmp_path, monkeypatch):
-    monkeypatch.setattr("foilstudy.report.viewer.NODES_MAX", 60)
+    monkeypatch.setattr("foilstudy.present.report.viewer.NODES_MAX", 60)
     (crumple,) = choose_shapes([write_crumple(tmp_path / "crumple.nc")])
     packed = pack_shape(crumple)
     assert packed["rows"] * packed["columns"] <= 100
@@ -373,7 +373,7 @@ def test_modes_of_the_view_decode_to_the_recorded_ones(tmp_path):
 
 
 def test_modes_on_a_fine_mesh_are_kept_on_a_coarser_grid(monkeypatch):
-    monkeypatch.setattr("foilstudy.report.viewer.MODE_NODES_MAX", 800)
+    monkeypatch.setattr("foilstudy.present.report.viewer.MODE_NODES_MAX", 800)
     shape = smooth_modes(61, 96)[0]
     packed = pack_mode(50.0, shape)
     assert packed["rows"] * packed["columns"] <= 800

@@ -13,15 +13,15 @@ from conftest import (
     relaxed,
 )
 
-from foilstudy.equilibrium.settle import HeldSheet, SettleOptions, settle, stopped_at
 from foilstudy.linalg import factorise
-from foilstudy.patch import RING_ROWS, Patch, cylinder_control_points
-from foilstudy.realisation.scheme import crumpling_scheme
-from foilstudy.relaxation import Ramp, Scheme, StoppingRule, relax
-from foilstudy.relaxation.damping import AdaptiveViscousDamping
-from foilstudy.relaxation.spectral_mass import SpectralMass
-from foilstudy.shell.sheet_model import SheetModel
-from foilstudy.shell.tangent import stiffness_matrix
+from foilstudy.model.patch import RING_ROWS, Patch, cylinder_control_points
+from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.tangent import stiffness_matrix
+from foilstudy.pipeline.scheme import crumpling_scheme
+from foilstudy.solve.equilibrium.settle import HeldSheet, SettleOptions, settle, stopped_at
+from foilstudy.solve.relaxation import Ramp, Scheme, StoppingRule, relax
+from foilstudy.solve.relaxation.damping import AdaptiveViscousDamping
+from foilstudy.solve.relaxation.spectral_mass import SpectralMass
 
 FREE = slice(RING_ROWS, -RING_ROWS)
 

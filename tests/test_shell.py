@@ -9,13 +9,13 @@ from conftest import DIAMETER, FEP, THICKNESS, cylinder
 from scipy.interpolate import BSpline
 from wild_sheets import RADIUS, Foil, flat, force_of, wild_shape, wild_sheet
 
-from foilstudy.patch import Patch, refine
-from foilstudy.shell.elements import Corner, OnePoint
-from foilstudy.shell.elements.one_point_kernel import CHUNK
-from foilstudy.shell.sheet_model import SheetModel
-from foilstudy.shell.tangent import mass_matrix, stiffness_matrix
-from foilstudy.shell.yielding import beyond_yield_share, von_mises_stress
-from foilstudy.stiffness.rings import rigid_motion
+from foilstudy.measure.stiffness.rings import rigid_motion
+from foilstudy.model.patch import Patch, refine
+from foilstudy.model.shell.elements import Corner, OnePoint
+from foilstudy.model.shell.elements.one_point_kernel import CHUNK
+from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.tangent import mass_matrix, stiffness_matrix
+from foilstudy.model.shell.yielding import beyond_yield_share, von_mises_stress
 
 CHUNK_EDGES = (5, CHUNK - 1, CHUNK, CHUNK + 1, CHUNK + 2, 2 * CHUNK, 2 * CHUNK + 1)
 

@@ -8,9 +8,9 @@ import pytest
 from scipy import stats
 from synthetic import EXPONENT, LAW, make_cube
 
-from foilstudy import statistics
-from foilstudy.reference import published
-from foilstudy.statistics.cells import samples
+from foilstudy.base.reference import published
+from foilstudy.present import statistics
+from foilstudy.present.statistics.cells import samples
 
 KEYS = {"alpha": "constant", "beta": "overlength", "gamma": "thickness"}
 

@@ -4,12 +4,7 @@ import numpy as np
 import pytest
 from conftest import DIAMETER, FEP, THICKNESS, cylinder
 
-from foilstudy.patch import refine
-from foilstudy.sheet import Material
-from foilstudy.shell.elements import Corner, OnePoint
-from foilstudy.shell.sheet_model import SheetModel
-from foilstudy.shell.tangent import stiffness_matrix
-from foilstudy.stiffness import (
+from foilstudy.measure.stiffness import (
     DOF_NAMES,
     InterfaceSystem,
     Rings,
@@ -17,7 +12,12 @@ from foilstudy.stiffness import (
     fixed_stiffness,
     free_stiffness,
 )
-from foilstudy.stiffness.rings import interface_rigid_modes, rigid_motion
+from foilstudy.measure.stiffness.rings import interface_rigid_modes, rigid_motion
+from foilstudy.model.foil import Material
+from foilstudy.model.patch import refine
+from foilstudy.model.shell.elements import Corner, OnePoint
+from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.tangent import stiffness_matrix
 
 RADIUS = DIAMETER / 2
 LENGTHS = np.diag(np.tile([1.0, 1.0, 1.0, 1 / RADIUS, 1 / RADIUS, 1 / RADIUS], 2))

@@ -7,16 +7,16 @@ import numpy as np
 import pytest
 from conftest import DIAMETER, FEP, FOIL, THICKNESS, cylinder, rotation
 
-from foilstudy.dynamics import HintzHerting
 from foilstudy.export.contents import surface_grid
-from foilstudy.patch import knot_points
-from foilstudy.realisation.crumpled import Crumple
-from foilstudy.realisation.structures import stress_free_structure
-from foilstudy.shell.tangent import stiffness_matrix
-from foilstudy.stiffness import InterfaceSystem, Rings, condense, fixed_stiffness
-from foilstudy.surface import Limits, SurfaceGrid, read_grid, sheet_from_grid
-from foilstudy.surface.fit import fitted_patch
-from foilstudy.surface.rings import fitted_circle
+from foilstudy.measure.dynamics import HintzHerting
+from foilstudy.measure.stiffness import InterfaceSystem, Rings, condense, fixed_stiffness
+from foilstudy.model.patch import knot_points
+from foilstudy.model.shell.tangent import stiffness_matrix
+from foilstudy.pipeline.crumpled import Crumple
+from foilstudy.pipeline.structures import stress_free_structure
+from foilstudy.pipeline.surface import Limits, SurfaceGrid, read_grid, sheet_from_grid
+from foilstudy.pipeline.surface.fit import fitted_patch
+from foilstudy.pipeline.surface.rings import fitted_circle
 
 RADIUS, HEIGHT = DIAMETER / 2, 0.13
 DEPTH = 4e-3

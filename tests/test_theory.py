@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from foilstudy.sheet import Material
-from foilstudy.verification import theory_cylinder, theory_plate
-from foilstudy.verification.theory_cylinder import Cylinder
-from foilstudy.verification.theory_roof import Roof, edge_deflection
+from foilstudy.model.foil import Material
+from foilstudy.study.verification import theory_cylinder, theory_plate
+from foilstudy.study.verification.theory_cylinder import Cylinder
+from foilstudy.study.verification.theory_roof import Roof, edge_deflection
 
 FEP = Material(650e6, 0.4, 2150.0, 12e6)
 

@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from foilstudy.verification.candidates import CANDIDATES
-from foilstudy.verification.figures import draw
-from foilstudy.verification.records import Benchmark, Curve, Picture, Plot, Quantity
-from foilstudy.verification.registry import ELEMENT_NAMES, MODULES, run
-from foilstudy.verification.summary import table
+from foilstudy.study.verification.candidates import CANDIDATES
+from foilstudy.study.verification.figures import draw
+from foilstudy.study.verification.records import Benchmark, Curve, Picture, Plot, Quantity
+from foilstudy.study.verification.registry import ELEMENT_NAMES, MODULES, run
+from foilstudy.study.verification.summary import table
 
 ROOT = Path(__file__).parents[1]
 MESHES = (10, 20, 30)
@@ -92,7 +92,7 @@ def test_large_pictures_are_thinned_but_keep_their_corners():
 
 def test_every_registered_benchmark_is_there_under_its_name():
     for module in set(MODULES.values()):
-        names = set(import_module(f"foilstudy.verification.{module}").BENCHMARKS)
+        names = set(import_module(f"foilstudy.study.verification.{module}").BENCHMARKS)
         assert names == {name for name in MODULES if MODULES[name] == module}
 
 

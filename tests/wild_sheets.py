@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from conftest import DIAMETER, FEP, rotation
 
-from foilstudy.patch import Patch, cylinder_control_points, fitted_control_points
-from foilstudy.sheet import Material
-from foilstudy.shell.elements import DEFAULT_ELEMENT, Element
-from foilstudy.shell.sheet_model import SheetModel
+from foilstudy.model.foil import Material
+from foilstudy.model.patch import Patch, cylinder_control_points, fitted_control_points
+from foilstudy.model.shell.elements import DEFAULT_ELEMENT, Element
+from foilstudy.model.shell.sheet_model import SheetModel
 
 RADIUS = DIAMETER / 2
 

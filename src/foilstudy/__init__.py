@@ -9,10 +9,10 @@ _LAZY = {
     "ConfigError": "foilstudy.config",
     "StudyConfig": "foilstudy.config",
     "load_config": "foilstudy.config",
-    "crumple": "foilstudy.realisation.crumple",
-    "gather": "foilstudy.cube",
-    "open_cube": "foilstudy.cube",
-    "respond": "foilstudy.realisation.respond",
+    "crumple": "foilstudy.study.sweep.crumple",
+    "gather": "foilstudy.study.sweep.cube",
+    "open_cube": "foilstudy.study.sweep.cube",
+    "respond": "foilstudy.study.sweep.respond",
 }
 
 __all__ = sorted(_LAZY)

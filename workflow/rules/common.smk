@@ -9,7 +9,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 from foilstudy.config import ConfigError, load_config
-from foilstudy.figures import FIGURES
+from foilstudy.present.figures import FIGURES
 from snakemake.logging import logger
 
 

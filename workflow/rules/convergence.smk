@@ -1,6 +1,6 @@
 """Convergence of the crumple with the mesh and with the residual: snakemake -j2 convergence."""
 
-from foilstudy.convergence import plan as CONVERGENCE_PLAN
+from foilstudy.study.convergence import plan as CONVERGENCE_PLAN
 
 CONVERGENCE = "results/convergence"
 CONVERGENCE_FIGURES = ["energy", "stiffness", "stabilisation", "run_time", "stops"]

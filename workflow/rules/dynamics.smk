@@ -1,6 +1,6 @@
 """Reductions held against the full order: snakemake -j2 dynamics."""
 
-from foilstudy.dynamicsstudy import plan as DYNAMICS_PLAN
+from foilstudy.study.dynamics import plan as DYNAMICS_PLAN
 
 DYNAMICS = "results/dynamics"
 DYNAMICS_FIGURES = ["cutoff", "cost", "frequency", "mac"]

@@ -1,6 +1,6 @@
 """Element variants, error against cost: snakemake -j2 elements."""
 
-from foilstudy.elementstudy import VARIANT_NAMES
+from foilstudy.study.elements import VARIANT_NAMES
 
 ELEMENT_STUDY = "results/elements"
 FROZEN_UM = [50, 250, 500, 1000]

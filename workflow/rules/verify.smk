@@ -1,7 +1,7 @@
 """The benchmarks of the shell with every element: snakemake -j2 verify."""
 
-from foilstudy.verification.registry import ELEMENT_NAMES
-from foilstudy.verification.registry import MODULES as BENCHMARK_NAMES
+from foilstudy.study.verification.registry import ELEMENT_NAMES
+from foilstudy.study.verification.registry import MODULES as BENCHMARK_NAMES
 
 VERIFICATION = "results/verification"
 BENCHMARK_RECORD = f"{VERIFICATION}/{{element}}/{{name}}.json"

@@ -1,5 +1,5 @@
 """Fill the kernel cache: compile.py."""
 
-from foilstudy.warmup import compile_kernels
+from foilstudy.study.sweep.warmup import compile_kernels
 
 compile_kernels()

@@ -2,8 +2,8 @@
 
 import sys
 
-from foilstudy.convergence.crumpling import run
-from foilstudy.files import write_json
+from foilstudy.base.files import write_json
+from foilstudy.study.convergence.crumpling import run
 
 name, path = sys.argv[1:]
 write_json(run(name), path)

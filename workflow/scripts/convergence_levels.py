@@ -2,8 +2,8 @@
 
 import sys
 
-from foilstudy.convergence.crumpling import run_levels
-from foilstudy.files import write_json
+from foilstudy.base.files import write_json
+from foilstudy.study.convergence.crumpling import run_levels
 
 name, path = sys.argv[1:]
 write_json(run_levels(name), path)

@@ -2,8 +2,8 @@
 
 import sys
 
-from foilstudy.convergence.stops import run_stops
-from foilstudy.files import write_json
+from foilstudy.base.files import write_json
+from foilstudy.study.convergence.stops import run_stops
 
 name, path = sys.argv[1:]
 write_json(run_stops(name), path)

@@ -3,10 +3,10 @@
 import sys
 from pathlib import Path
 
-from foilstudy.convergence.figures import FIGURES
-from foilstudy.convergence.records import Study
-from foilstudy.convergence.tables import write_crumples, write_markdown, write_stops
-from foilstudy.figures.registry import save
+from foilstudy.present.figures.registry import save
+from foilstudy.study.convergence.figures import FIGURES
+from foilstudy.study.convergence.records import Study
+from foilstudy.study.convergence.tables import write_crumples, write_markdown, write_stops
 
 folder = Path(sys.argv[1])
 study = Study.read(folder)

@@ -2,8 +2,8 @@
 
 import sys
 
-from foilstudy.convergence.timing import run_timing
-from foilstudy.files import write_json
+from foilstudy.base.files import write_json
+from foilstudy.study.convergence.timing import run_timing
 
 (path,) = sys.argv[1:]
 write_json(run_timing(), path)

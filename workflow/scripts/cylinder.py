@@ -4,7 +4,7 @@ import sys
 from pathlib import Path
 
 from foilstudy.config import StudyConfig
-from foilstudy.realisation.cylinder import cylinder_bounds
+from foilstudy.study.sweep.cylinder import cylinder_bounds
 
 study_json, cylinder_nc = sys.argv[1:]
 cylinder_bounds(StudyConfig.model_validate_json(study_json), Path(cylinder_nc))

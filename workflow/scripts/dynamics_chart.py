@@ -2,8 +2,8 @@
 
 import sys
 
-from foilstudy.dynamicsstudy.measure import chart
-from foilstudy.files import write_json
+from foilstudy.base.files import write_json
+from foilstudy.study.dynamics.measure import chart
 
 name, shape, path = sys.argv[1:]
 write_json(chart(name, shape), path)

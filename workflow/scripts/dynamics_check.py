@@ -2,8 +2,8 @@
 
 import sys
 
-from foilstudy.dynamicsstudy.measure import check
-from foilstudy.files import write_json
+from foilstudy.base.files import write_json
+from foilstudy.study.dynamics.measure import check
 
 name, shape, path = sys.argv[1:]
 write_json(check(name, shape), path)

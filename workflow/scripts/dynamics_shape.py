@@ -2,7 +2,7 @@
 
 import sys
 
-from foilstudy.dynamicsstudy.shapes import crumple_shape
+from foilstudy.study.dynamics.shapes import crumple_shape
 
 name, path = sys.argv[1:]
 crumple_shape(name, path)

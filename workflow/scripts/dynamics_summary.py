@@ -3,10 +3,10 @@
 import sys
 from pathlib import Path
 
-from foilstudy.dynamicsstudy.figures import FIGURES
-from foilstudy.dynamicsstudy.records import Study
-from foilstudy.dynamicsstudy.tables import write_chart, write_checks, write_markdown
-from foilstudy.figures.registry import save
+from foilstudy.present.figures.registry import save
+from foilstudy.study.dynamics.figures import FIGURES
+from foilstudy.study.dynamics.records import Study
+from foilstudy.study.dynamics.tables import write_chart, write_checks, write_markdown
 
 folder = Path(sys.argv[1])
 study = Study.read(folder)

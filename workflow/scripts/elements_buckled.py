@@ -2,7 +2,7 @@
 
 import sys
 
-from foilstudy.elementstudy.buckled import reference_energies
-from foilstudy.elementstudy.records import write
+from foilstudy.study.elements.buckled import reference_energies
+from foilstudy.study.elements.records import write
 
 write(reference_energies(), sys.argv[1])

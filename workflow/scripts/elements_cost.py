@@ -2,7 +2,7 @@
 
 import sys
 
-from foilstudy.elementstudy.cost import costs
-from foilstudy.elementstudy.records import write
+from foilstudy.study.elements.cost import costs
+from foilstudy.study.elements.records import write
 
 write(costs(), sys.argv[1])

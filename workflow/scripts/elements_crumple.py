@@ -2,8 +2,8 @@
 
 import sys
 
-from foilstudy.elementstudy.crumpling import crumples
-from foilstudy.elementstudy.records import write
+from foilstudy.study.elements.crumpling import crumples
+from foilstudy.study.elements.records import write
 
 name, record_json = sys.argv[1:]
 write(crumples(name), record_json)

@@ -2,9 +2,9 @@
 
 import sys
 
-from foilstudy.elementstudy.crumpling import fine_crumples
-from foilstudy.elementstudy.records import write
-from foilstudy.elementstudy.variants import DEFAULT
+from foilstudy.study.elements.crumpling import fine_crumples
+from foilstudy.study.elements.records import write
+from foilstudy.study.elements.variants import DEFAULT
 
 size_mm, record_json = sys.argv[1:]
 write(fine_crumples(DEFAULT, float(size_mm) * 1e-3), record_json)

@@ -2,8 +2,8 @@
 
 import sys
 
-from foilstudy.elementstudy.frozen import frozen_shape
-from foilstudy.elementstudy.records import write_shape
+from foilstudy.study.elements.frozen import frozen_shape
+from foilstudy.study.elements.records import write_shape
 
 thickness_um, shape_npz = sys.argv[1:]
 write_shape(frozen_shape(float(thickness_um) * 1e-6), shape_npz)

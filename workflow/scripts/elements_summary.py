@@ -3,9 +3,9 @@
 import sys
 from pathlib import Path
 
-from foilstudy.elementstudy.chart import draw
-from foilstudy.elementstudy.summary import Study, write_csv, write_markdown
-from foilstudy.figures.registry import save
+from foilstudy.present.figures.registry import save
+from foilstudy.study.elements.chart import draw
+from foilstudy.study.elements.summary import Study, write_csv, write_markdown
 
 folder = Path(sys.argv[1])
 study = Study.read(folder)

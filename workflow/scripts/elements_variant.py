@@ -2,7 +2,7 @@
 
 import sys
 
-from foilstudy.elementstudy.records import measure, read_shape, write
+from foilstudy.study.elements.records import measure, read_shape, write
 
 name, record_json, *shapes = sys.argv[1:]
 write(measure(name, [read_shape(path) for path in shapes]), record_json)

@@ -4,7 +4,7 @@ import sys
 from pathlib import Path
 
 from foilstudy.config import ResponseTask
-from foilstudy.export import export_realisation
+from foilstudy.study.sweep.export import export_realisation
 
 task_json, crumple_nc, folder, *formats = sys.argv[1:]
 task = ResponseTask.model_validate_json(task_json)

@@ -3,7 +3,7 @@
 from argparse import ArgumentParser
 from pathlib import Path
 
-from foilstudy.figures import FigureInputs, draw_figures
+from foilstudy.present.figures import FigureInputs, draw_figures
 
 parser = ArgumentParser()
 parser.add_argument("folder", type=Path)

@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-from foilstudy.report import ReportInputs, write_report
+from foilstudy.present.report import ReportInputs, write_report
 
 results, report_html, *crumples = map(Path, sys.argv[1:])
 write_report(

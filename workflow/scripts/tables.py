@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-from foilstudy.statistics import write_tables
+from foilstudy.present.statistics import write_tables
 
 cube_nc, folder = map(Path, sys.argv[1:])
 write_tables(cube_nc, folder)

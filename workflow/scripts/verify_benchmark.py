@@ -2,7 +2,7 @@
 
 import sys
 
-from foilstudy.verification.registry import run
+from foilstudy.study.verification.registry import run
 
 name, element, benchmark_json = sys.argv[1:]
 run(name, element).write(benchmark_json)

@@ -2,7 +2,7 @@
 
 import sys
 
-from foilstudy.verification.records import Benchmark
+from foilstudy.study.verification.records import Benchmark
 
 problems = [problem for path in sys.argv[1:] for problem in Benchmark.read(path).problems()]
 sys.exit("\n".join(problems) or 0)

@@ -6,9 +6,9 @@ The SVG goes beside the PNG.
 import sys
 from pathlib import Path
 
-from foilstudy.figures.registry import save
-from foilstudy.verification.figures import draw
-from foilstudy.verification.records import Benchmark
+from foilstudy.present.figures.registry import save
+from foilstudy.study.verification.figures import draw
+from foilstudy.study.verification.records import Benchmark
 
 figure_png, *paths = sys.argv[1:]
 save(draw([Benchmark.read(path) for path in paths]), Path(figure_png).with_suffix(""))

@@ -2,8 +2,8 @@
 
 import sys
 
-from foilstudy.verification.records import Benchmark
-from foilstudy.verification.summary import write_csv, write_markdown
+from foilstudy.study.verification.records import Benchmark
+from foilstudy.study.verification.summary import write_csv, write_markdown
 
 csv_path, markdown_path, *paths = sys.argv[1:]
 benchmarks = [Benchmark.read(path) for path in paths]

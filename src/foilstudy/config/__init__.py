@@ -4,7 +4,8 @@ The model is the one source of the defaults, of ``config/schema.json`` and of th
 ``config/README.md``; ``python -m foilstudy.config`` writes both.
 """
 
-from .._errors import ConfigError
+from foilstudy.base.errors import ConfigError
+
 from .export import Export
 from .isolation import Isolation
 from .load import load_config

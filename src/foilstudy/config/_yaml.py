@@ -11,7 +11,7 @@ from typing import Any
 
 import yaml
 
-from .._errors import ConfigError
+from foilstudy.base.errors import ConfigError
 
 __all__ = ["read_yaml"]
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from ..materials import MATERIALS
+from foilstudy.model.materials import MATERIALS
+
 from .model import StudyConfig
 from .sections import CONSTANTS
 

@@ -65,7 +65,7 @@ class Isolation(Section):
     @model_validator(mode="after")
     def _internal_resonance_is_possible(self) -> Isolation:
         highest = max(self.suspension_axial_hz, self.suspension_radial_hz)
-        # Two springs in series and the mass between them: see foilstudy.isolation.mounts.
+        # Two springs in series and the mass between them: see foilstudy.measure.isolation.mounts.
         least = 4 * (highest / self.internal_resonance_hz) ** 2 * 100
         if self.internal_mass_percent < least:
             raise ValueError(

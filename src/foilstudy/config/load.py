@@ -10,7 +10,8 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
-from .._errors import ConfigError
+from foilstudy.base.errors import ConfigError
+
 from .model import StudyConfig
 
 __all__ = ["load_config"]

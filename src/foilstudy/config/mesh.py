@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Field, PlainSerializer, WithJsonSchema, WrapValidator, model_validator
 
-from ..mesh_size import element_size_for
-from ..sheet import SMOOTH_LENGTH_MIN
+from foilstudy.model.foil import SMOOTH_LENGTH_MIN
+from foilstudy.model.mesh_size import element_size_for
+
 from .sections import Section, unit_field
 
 if TYPE_CHECKING:

@@ -8,7 +8,8 @@ from functools import cached_property
 
 from pydantic import Field, model_validator
 
-from .._errors import ConfigError
+from foilstudy.base.errors import ConfigError
+
 from .export import Export
 from .isolation import Isolation
 from .mesh import Mesh, mesh_problems

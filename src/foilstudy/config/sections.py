@@ -13,7 +13,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-from ..materials import MATERIALS
+from foilstudy.model.materials import MATERIALS
 
 MODAL_REDUCTIONS = ("hintz_herting", "craig_bampton")
 CORRELATION_LENGTH_DEFAULT_MM = 15.0

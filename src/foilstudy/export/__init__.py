@@ -1,7 +1,6 @@
 """A realisation in the formats of other tools: one file per format behind one registry."""
 
 from foilstudy.export.contents import Contents
-from foilstudy.export.realisation import contents_of, export_realisation
 from foilstudy.export.registry import FORMATS, Format, check_format, write
 
 __all__ = [
@@ -9,7 +8,5 @@ __all__ = [
     "Contents",
     "Format",
     "check_format",
-    "contents_of",
-    "export_realisation",
     "write",
 ]

@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 
 from foilstudy.export.contents import Contents, surface_grid
-from foilstudy.stiffness import fixed_stiffness
-from foilstudy.stiffness.directional import MOTIONS
+from foilstudy.measure.stiffness import fixed_stiffness
+from foilstudy.measure.stiffness.directional import MOTIONS
 
 UNIT_MOTION = 1e-3
 """m; the steps are linear, so that it only scales the forces."""

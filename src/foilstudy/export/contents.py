@@ -8,9 +8,9 @@ from functools import cached_property
 
 import numpy as np
 
-from foilstudy.dynamics import Damping, ReducedModel, interface_dynamic_stiffness
-from foilstudy.patch import RING_ROWS, knot_points, refine
-from foilstudy.realisation.crumpled import Crumple
+from foilstudy.measure.dynamics import Damping, ReducedModel, interface_dynamic_stiffness
+from foilstudy.model.patch import RING_ROWS, knot_points, refine
+from foilstudy.pipeline.crumpled import Crumple
 
 POINTS_PER_ELEMENT = 2
 """Cells of the exported grid per element and direction: a biquadratic element is exactly the

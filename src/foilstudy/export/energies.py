@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foilstudy.patch import Patch
-from foilstudy.shell.elements import Corner, OnePoint
-from foilstudy.shell.elements.sampled import basis_weights
-from foilstudy.shell.elements.sampling import LAW_PAIRS, StrainSampling, corner
-from foilstudy.shell.geometry import reference_geometry
-from foilstudy.shell.sheet_model import SheetModel
+from foilstudy.model.patch import Patch
+from foilstudy.model.shell.elements import Corner, OnePoint
+from foilstudy.model.shell.elements.sampled import basis_weights
+from foilstudy.model.shell.elements.sampling import LAW_PAIRS, StrainSampling, corner
+from foilstudy.model.shell.geometry import reference_geometry
+from foilstudy.model.shell.sheet_model import SheetModel
 
 
 def element_energies(sheet: SheetModel, points: np.ndarray) -> np.ndarray:

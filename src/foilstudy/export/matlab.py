@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 from scipy.io import savemat
 
-from foilstudy.dynamics.damping_matrix import damping_matrix, viscous_coefficients
-from foilstudy.dynamics.structure import INTERFACE
 from foilstudy.export.contents import Contents
-from foilstudy.stiffness import DOF_NAMES
+from foilstudy.measure.dynamics.damping_matrix import damping_matrix, viscous_coefficients
+from foilstudy.measure.dynamics.structure import INTERFACE
+from foilstudy.measure.stiffness import DOF_NAMES
 
 
 def write(contents: Contents, path: Path) -> None:

@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import xarray
 
-from foilstudy.dynamics.damping_matrix import damping_matrix
 from foilstudy.export.contents import Contents
-from foilstudy.stiffness import DOF_NAMES
+from foilstudy.measure.dynamics.damping_matrix import damping_matrix
+from foilstudy.measure.stiffness import DOF_NAMES
 
 _PAIR = ("coordinate", "coordinate_in")
 

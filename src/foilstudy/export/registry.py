@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 
+from foilstudy.base.files import written_whole
 from foilstudy.export.contents import Contents
-from foilstudy.files import written_whole
 
 
 @dataclass(frozen=True)
@@ -51,12 +51,12 @@ FORMATS: dict[str, Format] = {
     "vtu": Format(
         "shape.vtu",
         "crumpled shape with strains, energies and mode shapes: ParaView; read back by "
-        "foilstudy.surface",
+        "foilstudy.pipeline.surface",
         "vtk",
     ),
     "npz": Format(
         "shape.npz",
-        "grid of surface points: NumPy; read back by foilstudy.surface",
+        "grid of surface points: NumPy; read back by foilstudy.pipeline.surface",
         "vtk",
         "write_points",
     ),

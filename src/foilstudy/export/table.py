@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from foilstudy.dynamics import DEFINITIONS, directional_stiffness
 from foilstudy.export.contents import Contents
-from foilstudy.stiffness.directional import DIRECTIONS
+from foilstudy.measure.dynamics import DEFINITIONS, directional_stiffness
+from foilstudy.measure.stiffness.directional import DIRECTIONS
 
 
 def write(contents: Contents, path: Path) -> None:

@@ -11,10 +11,10 @@ from pathlib import Path
 import numpy as np
 import pyuff
 
-from foilstudy.dynamics import DEFINITIONS, directional_stiffness
 from foilstudy.export.contents import Contents
-from foilstudy.stiffness import DOF_NAMES
-from foilstudy.stiffness.directional import DIRECTIONS
+from foilstudy.measure.dynamics import DEFINITIONS, directional_stiffness
+from foilstudy.measure.stiffness import DOF_NAMES
+from foilstudy.measure.stiffness.directional import DIRECTIONS
 
 _FREQUENCY_RESPONSE = 4
 _FREQUENCY, _DISPLACEMENT, _FORCE = 18, 8, 13

@@ -9,7 +9,7 @@ import numpy as np
 
 from foilstudy.export.contents import POINTS_PER_ELEMENT, Contents, surface_grid
 from foilstudy.export.energies import element_energies, principal_strains
-from foilstudy.shell.yielding import von_mises_stress
+from foilstudy.model.shell.yielding import von_mises_stress
 
 
 def write(contents: Contents, path: Path) -> None:
@@ -28,7 +28,7 @@ def write(contents: Contents, path: Path) -> None:
 
 
 def write_points(contents: Contents, path: Path) -> None:
-    """Write the grid of surface points, which `foilstudy.surface` reads back."""
+    """Write the grid of surface points, which `foilstudy.pipeline.surface` reads back."""
     crumple = contents.crumple
     content = {
         "points": surface_grid(crumple.points),

@@ -1,0 +1,100 @@
+"""Published results the study is compared with."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from importlib import resources
+from typing import NamedTuple
+
+import numpy as np
+
+
+class Estimate(NamedTuple):
+    """A published value and its standard deviation."""
+
+    value: float
+    std: float
+
+
+@dataclass(frozen=True)
+class PublishedLaw:
+    """Published power law ``ln k = alpha + beta ln(overlength/%) + gamma ln(thickness/um)``.
+
+    Attributes
+    ----------
+    alpha, beta, gamma
+        Least-squares estimates, `k` in N/m.
+    r2
+        Coefficient of determination.
+    """
+
+    alpha: Estimate
+    beta: Estimate
+    gamma: Estimate
+    r2: float
+
+    def stiffness(self, overlength_percent, thickness_um):
+        """Stiffness in N/m; the arguments broadcast against each other."""
+        return np.exp(
+            self.alpha.value
+            + self.beta.value * np.log(overlength_percent)
+            + self.gamma.value * np.log(thickness_um)
+        )
+
+
+@dataclass(frozen=True)
+class Published:
+    """Everything the study quotes from the published work.
+
+    Attributes
+    ----------
+    citation
+        Source of all values.
+    power_laws
+        Power law by direction (axial, radial) and source (simulation, experiment).
+    first_eigenfrequency_exponents
+        Exponent of the first eigenfrequency in the reference height, by thickness in um.
+    colour_scale_mm
+        Half width of the published radial-displacement colour scale.
+    radial_displacement_range_mm
+        Smallest and largest published radial displacement.
+    """
+
+    citation: str
+    power_laws: Mapping[str, Mapping[str, PublishedLaw]]
+    first_eigenfrequency_exponents: Mapping[float, float]
+    colour_scale_mm: float
+    radial_displacement_range_mm: tuple[float, float]
+
+
+@lru_cache(maxsize=1)
+def published() -> Published:
+    """Return the published results that ship with the package."""
+    import yaml
+
+    text = resources.files("foilstudy.base").joinpath("data/published.yaml").read_text("utf-8")
+    raw = yaml.safe_load(text)
+    return Published(
+        citation=raw["citation"],
+        power_laws={
+            direction: {source: _law(entry) for source, entry in laws.items()}
+            for direction, laws in raw["power_law"].items()
+        },
+        first_eigenfrequency_exponents={
+            float(thickness): exponent
+            for thickness, exponent in raw["first_eigenfrequency_exponent"].items()
+        },
+        colour_scale_mm=raw["radial_displacement_colour_scale_mm"],
+        radial_displacement_range_mm=tuple(raw["radial_displacement_range_mm"]),
+    )
+
+
+def _law(entry: Mapping) -> PublishedLaw:
+    return PublishedLaw(
+        alpha=Estimate(*entry["alpha"]),
+        beta=Estimate(*entry["beta"]),
+        gamma=Estimate(*entry["gamma"]),
+        r2=entry["r2"],
+    )

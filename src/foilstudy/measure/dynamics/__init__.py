@@ -1,0 +1,45 @@
+"""Dynamic stiffness between the rings: reductions, damping, response, full-order truth."""
+
+from foilstudy.measure.dynamics.accuracy import Wanted, eigenfrequency_errors, residual_estimate
+from foilstudy.measure.dynamics.damping import (
+    Damping,
+    ModalDamping,
+    RayleighDamping,
+    StructuralDamping,
+)
+from foilstudy.measure.dynamics.reduction import ReducedModel, Reduction
+from foilstudy.measure.dynamics.reductions import CraigBampton, Guyan, HintzHerting, RationalKrylov
+from foilstudy.measure.dynamics.response import (
+    DEFINITIONS,
+    directional_stiffness,
+    dynamic_stiffness,
+    frequency_grid,
+    interface_dynamic_stiffness,
+    relative_error,
+)
+from foilstudy.measure.dynamics.structure import Structure
+from foilstudy.measure.dynamics.truth import full_order
+
+__all__ = [
+    "CraigBampton",
+    "DEFINITIONS",
+    "Damping",
+    "Guyan",
+    "HintzHerting",
+    "ModalDamping",
+    "RationalKrylov",
+    "RayleighDamping",
+    "ReducedModel",
+    "Reduction",
+    "Structure",
+    "StructuralDamping",
+    "Wanted",
+    "directional_stiffness",
+    "eigenfrequency_errors",
+    "dynamic_stiffness",
+    "frequency_grid",
+    "full_order",
+    "interface_dynamic_stiffness",
+    "relative_error",
+    "residual_estimate",
+]

@@ -1,0 +1,64 @@
+"""Static condensation of a sheet onto its rings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sparse
+
+from foilstudy.linalg import Factorisation, factorise
+from foilstudy.measure.stiffness.rings import Rings
+
+
+@dataclass(frozen=True)
+class InterfaceSystem:
+    """A matrix of the sheet split into its interior and the twelve interface motions."""
+
+    interior: sparse.csr_matrix
+    coupling: np.ndarray
+    interface: np.ndarray
+
+    @classmethod
+    def split(cls, matrix: sparse.csr_matrix, rings: Rings) -> InterfaceSystem:
+        """Split a matrix on all control points by the rings."""
+        interior_rows = matrix[rings.interior[0] : rings.interior[-1] + 1]
+        boundary_rows = matrix[rings.boundary]
+        return cls(
+            interior_rows[:, rings.interior[0] : rings.interior[-1] + 1].tocsr(),
+            interior_rows[:, rings.boundary] @ rings.motion,
+            rings.motion.T @ (boundary_rows[:, rings.boundary] @ rings.motion),
+        )
+
+
+@dataclass(frozen=True)
+class StaticCondensation:
+    """The interface stiffness and what led to it.
+
+    Attributes
+    ----------
+    stiffness : ndarray, shape (12, 12)
+        Forces and moments on the rings per interface motion, symmetric.
+    constraint_modes : ndarray, shape (interior, 12)
+        Interior displacement per unit interface motion.
+    factor : Factorisation
+        Of the interior stiffness (rings clamped).
+    """
+
+    stiffness: np.ndarray
+    constraint_modes: np.ndarray
+    factor: Factorisation
+
+
+def condense(system: InterfaceSystem) -> StaticCondensation:
+    """S = K_bb - K_bi K_ii^-1 K_ib.
+
+    Raises
+    ------
+    SolveError
+        If the interior stiffness is singular to working precision.
+    """
+    factor = factorise(system.interior)
+    modes = -factor.solve(system.coupling)
+    stiffness = system.interface + system.coupling.T @ modes
+    return StaticCondensation(0.5 * (stiffness + stiffness.T), modes, factor)

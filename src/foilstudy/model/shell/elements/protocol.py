@@ -1,0 +1,39 @@
+"""What a sheet asks of its element."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from foilstudy.model.shell.sheet_model import SheetModel
+
+
+class ElementKernel(Protocol):
+    """Energy, force and tangent of one sheet."""
+
+    def force(self, points: np.ndarray, out: np.ndarray) -> np.ndarray:
+        """Write the derivative of the strain energy; return its three parts, J.
+
+        Membrane, bending, and the part that only holds the in-plane checkerboard.
+        """
+        ...
+
+    def tangent_blocks(self, points: np.ndarray | None) -> np.ndarray:
+        """Blocks of the tangent, shape (rows, columns, 5, 5, 3, 3): control point, neighbour.
+
+        Neighbours from two rows and columns before to two after. Without points, the stiffness
+        of the stress-free shape.
+        """
+        ...
+
+
+class Element(Protocol):
+    """Where an element samples its strains."""
+
+    name: str
+
+    def kernel(self, sheet: SheetModel) -> ElementKernel:
+        """The element at work on a sheet."""
+        ...

@@ -1,0 +1,91 @@
+"""Consistent tangent and mass matrix of the sheet, assembled on the structured stencil.
+
+Every element sees three control rows and columns, whatever its strain samples; so every control
+point is coupled to the 5 x 5 around it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.sparse as sparse
+
+from foilstudy.model.patch import Patch
+from foilstudy.model.shell.sheet_model import SheetModel
+
+_MASS = np.array([[6.0, 13.0, 1.0], [13.0, 54.0, 13.0], [1.0, 13.0, 6.0]]) / 120.0
+"""Mass of one quadratic uniform B-spline element per unit of length."""
+
+_REACH = 5
+"""Control points along one direction that share an element with a given one."""
+
+
+def _sparsity(patch: Patch):
+    """Row starts, column indices and the matching selection of stencil entries."""
+    rows, columns = patch.rows, patch.columns
+    row = np.arange(rows)[:, None, None, None]
+    column = np.arange(columns)[None, :, None, None]
+    reach = np.arange(_REACH) - 2
+    other_row = row + reach[None, None, :, None]
+    other_column = column + reach[None, None, None, :]
+    shape = (rows, columns, _REACH, _REACH)
+    valid = (other_row >= 0) & (other_row < rows)
+    if not patch.periodic:
+        valid = valid & (other_column >= 0) & (other_column < columns)
+    valid = np.broadcast_to(valid, shape)
+    index = np.broadcast_to(other_row * columns + other_column % columns, shape)
+    starts = np.concatenate([[0], np.cumsum(valid.sum(axis=(2, 3)).ravel())])
+    return starts, index[valid], valid
+
+
+def stiffness_matrix(sheet: SheetModel, points: np.ndarray | None = None) -> sparse.csr_matrix:
+    """Tangent stiffness on all control points, ordered row, column, component.
+
+    Parameters
+    ----------
+    sheet : SheetModel
+    points : ndarray, shape (3, rows, columns), optional
+        Deformed control points. Without them the sheet is in its stress-free shape.
+
+    Returns
+    -------
+    csr_matrix
+        Symmetric, N/m.
+
+    Raises
+    ------
+    ValueError
+        If there are fewer than five control points around.
+    """
+    patch = sheet.patch
+    if patch.periodic and patch.columns < _REACH:
+        raise ValueError(f"a patch needs at least {_REACH} elements around, not {patch.columns}")
+    blocks = sheet.tangent_blocks(points)
+    starts, index, valid = _sparsity(patch)
+    size = 3 * patch.rows * patch.columns
+    matrix = sparse.bsr_matrix((blocks[valid], index, starts), shape=(size, size)).tocsr()
+    matrix.sort_indices()
+    return matrix
+
+
+def mass_matrix(patch: Patch, element_masses: np.ndarray) -> sparse.csr_matrix:
+    """Consistent mass on all control points, same order as `stiffness_matrix`.
+
+    Parameters
+    ----------
+    patch : Patch
+    element_masses : ndarray, shape (elements_along, elements_around)
+        kg; taken from the undeformed foil, so that crumpling conserves mass.
+    """
+    element = np.kron(_MASS, _MASS)
+    rows, columns = patch.rows, patch.columns
+    node = np.arange(9)
+    j, i = np.meshgrid(
+        np.arange(patch.elements_along), np.arange(patch.elements_around), indexing="ij"
+    )
+    index = (j[..., None] + node // 3) * columns + (i[..., None] + node % 3) % columns
+    first = np.repeat(index, 9, axis=-1)
+    second = np.tile(index, (1, 1, 9))
+    values = element_masses[..., None] * element.ravel()
+    size = rows * columns
+    scalar = sparse.coo_matrix((values.ravel(), (first.ravel(), second.ravel())), (size, size))
+    return sparse.kron(scalar.tocsr(), sparse.identity(3), format="csr")

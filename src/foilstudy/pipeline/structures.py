@@ -1,0 +1,70 @@
+"""The linear system of a crumple between its rings, free of stress or stressed."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from foilstudy.measure.dynamics.structure import Structure
+from foilstudy.measure.stiffness import InterfaceSystem, Rings
+from foilstudy.measure.stiffness.rings import interface_rigid_modes
+from foilstudy.model.patch import RING_ROWS
+from foilstudy.model.shell.tangent import mass_matrix, stiffness_matrix
+from foilstudy.pipeline.crumpled import Crumple
+
+
+def stress_free_structure(crumple: Crumple) -> Structure:
+    """The crumpled shape without its stresses, as published.
+
+    Raises
+    ------
+    SolveError
+        If the stiffness with held rings is singular.
+    """
+    matrix = stiffness_matrix(crumple.sheet(crumple.points))
+    stiffness = InterfaceSystem.split(matrix, Rings.of(crumple.patch, crumple.points))
+    return Structure.assembled(stiffness, mass(crumple), _rigid_motions(crumple))
+
+
+def prestressed_structure(crumple: Crumple) -> Structure:
+    """The crumpled shape with its stresses: the consistent tangent at the equilibrium.
+
+    Raises
+    ------
+    SolveError
+        If the tangent with held rings is singular.
+    """
+    sheet, points = crumple.sheet(crumple.reference), crumple.points
+    rings = Rings.of(crumple.patch, points)
+    stiffness = InterfaceSystem.split(stiffness_matrix(sheet, points), rings)
+    force = np.empty_like(points)
+    sheet.force(points, force)
+    for ring, rows in enumerate((slice(0, RING_ROWS), slice(-RING_ROWS, None))):
+        turning = slice(6 * ring + 3, 6 * ring + 6)
+        stiffness.interface[turning, turning] += _turning_stiffness(points[:, rows], force[:, rows])
+    translations = _rigid_motions(crumple)[:, :3]
+    return Structure.assembled(stiffness, mass(crumple), translations)
+
+
+def _rigid_motions(crumple: Crumple) -> np.ndarray:
+    """Of both rings together, about the centre of the lower one, shape (12, 6)."""
+    heights = crumple.points[2]
+    return interface_rigid_modes(heights[-RING_ROWS:].mean() - heights[:RING_ROWS].mean())
+
+
+def _turning_stiffness(points: np.ndarray, force: np.ndarray) -> np.ndarray:
+    """Second derivative of the energy by the rotation of a loaded ring, N m, shape (3, 3).
+
+    A rotation moves a point by theta x r + theta x (theta x r) / 2; the second part times the
+    force g gives (theta.r)(theta.g) - (r.g) theta.theta, halved.
+    """
+    arms = points.reshape(3, -1) - np.array([[0.0], [0.0], [points[2].mean()]])
+    moment = arms @ force.reshape(3, -1).T
+    return 0.5 * (moment + moment.T) - np.trace(moment) * np.eye(3)
+
+
+def mass(crumple: Crumple) -> InterfaceSystem:
+    """Mass of the crumpled foil; the areal density is that of the undeformed foil."""
+    foil, patch = crumple.foil, crumple.patch
+    areas = crumple.sheet(crumple.reference).element_areas()
+    matrix = mass_matrix(patch, foil.material.density * foil.thickness * areas)
+    return InterfaceSystem.split(matrix, Rings.of(patch, crumple.points))

@@ -1,0 +1,111 @@
+"""What the figures read from crumple.nc files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from foilstudy.base.outcome import USABLE
+from foilstudy.model.patch import knot_points
+
+
+@dataclass(frozen=True)
+class Crumple:
+    """One realisation on disk.
+
+    Attributes
+    ----------
+    path : Path
+    thickness_um, overlength_percent, reference_height_mm : float
+    seed : int
+    status, message : str
+    """
+
+    path: Path
+    thickness_um: float
+    overlength_percent: float
+    reference_height_mm: float
+    seed: int
+    status: str
+    message: str
+
+    @property
+    def has_shape(self) -> bool:
+        """Whether the file holds a crumpled shape."""
+        return self.status in USABLE
+
+
+@dataclass(frozen=True)
+class Shape:
+    """A crumpled surface.
+
+    Attributes
+    ----------
+    control_points : ndarray, shape (3, rows, columns), m
+    radius : float
+        Radius of the reference cylinder, m.
+    """
+
+    control_points: np.ndarray
+    radius: float
+
+
+def catalogue(paths: Iterable) -> list[Crumple]:
+    """Return the realisations in `paths`, sorted by thickness, overlength and seed."""
+    import netCDF4
+
+    found = []
+    for path in paths:
+        with netCDF4.Dataset(path) as file:
+            found.append(
+                Crumple(
+                    path=Path(path),
+                    thickness_um=float(file.thickness_um),
+                    overlength_percent=float(file.overlength_percent),
+                    reference_height_mm=float(file.reference_height_mm),
+                    seed=int(file.seed),
+                    status=str(file.status),
+                    message=str(file.message),
+                )
+            )
+    return sorted(found, key=lambda c: (c.thickness_um, c.overlength_percent, c.seed))
+
+
+def read_shape(crumple: Crumple) -> Shape:
+    """Read the crumpled surface of a realisation that has one."""
+    import netCDF4
+
+    with netCDF4.Dataset(crumple.path) as file:
+        points = np.asarray(file["control_points"][:], float)
+        reference = knot_points(np.asarray(file["reference_control_points"][:], float))
+    return Shape(points, float(np.hypot(reference[0], reference[1]).mean()))
+
+
+def read_history(crumple: Crumple) -> dict[str, np.ndarray]:
+    """Read the history of a realisation; keys without the prefix ``history_``, SI units."""
+    import netCDF4
+
+    with netCDF4.Dataset(crumple.path) as file:
+        return {
+            name.removeprefix("history_"): np.ma.filled(variable[:].astype(float), np.nan)
+            for name, variable in file.variables.items()
+            if name.startswith("history_")
+        }
+
+
+def typical_configuration(crumples: list[Crumple]) -> list[Crumple]:
+    """Return all realisations of the thickest foil at its middle overlength with a shape.
+
+    Falls back on thinner foils and other overlengths where realisations failed; empty if no
+    realisation has a shape.
+    """
+    usable = [c for c in crumples if c.has_shape]
+    if not usable:
+        return []
+    thickness = max(c.thickness_um for c in usable)
+    overlengths = sorted({c.overlength_percent for c in usable if c.thickness_um == thickness})
+    middle = overlengths[len(overlengths) // 2]
+    return [c for c in usable if c.thickness_um == thickness and c.overlength_percent == middle]

@@ -1,0 +1,67 @@
+"""What the figures and the page read about modes from response.nc files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from foilstudy.plot.crumples import Crumple
+
+
+@dataclass(frozen=True)
+class Modes:
+    """First modes of one realisation with both rings held.
+
+    Attributes
+    ----------
+    frequencies : ndarray, shape (modes,)
+        Hz.
+    shapes : ndarray, shape (modes, 3, node rows, node columns)
+        Mass-normalised displacement of the surface at the knots, m/sqrt(kg m2).
+    """
+
+    frequencies: np.ndarray
+    shapes: np.ndarray
+
+
+def recorded_modes(crumples: Iterable[Crumple], response_paths: Iterable) -> dict[Path, Modes]:
+    """Modes of those realisations that have some, by the path of their crumple.
+
+    Parameters
+    ----------
+    crumples
+        Realisations on disk.
+    response_paths : paths of response.nc files
+        The one in the folder of a crumple is its own.
+
+    Returns
+    -------
+    dict
+        Without realisations that failed, or whose study keeps no mode shapes.
+    """
+    responses = {Path(path).parent: Path(path) for path in response_paths}
+    found = {}
+    for crumple in crumples:
+        response = responses.get(crumple.path.parent)
+        modes = read_modes(response) if response is not None and crumple.has_shape else None
+        if modes is not None:
+            found[crumple.path] = modes
+    return found
+
+
+def read_modes(path: Path) -> Modes | None:
+    """Modes in a response.nc whose shape and frequency are known; None if it has none."""
+    import netCDF4
+
+    with netCDF4.Dataset(path) as file:
+        if "mode_shape" not in file.variables:
+            return None
+        file.set_auto_mask(False)
+        shapes = np.asarray(file["mode_shape"][...], float)
+        frequencies = np.asarray(file["eigenfrequency"][...], float)[: len(shapes)]
+    shapes = shapes[: len(frequencies)]
+    known = np.isfinite(frequencies) & np.isfinite(shapes).all(axis=(1, 2, 3))
+    return Modes(frequencies[known], shapes[known]) if known.any() else None

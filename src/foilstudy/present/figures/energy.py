@@ -1,0 +1,85 @@
+"""Split of the strain energy per configuration."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from foilstudy.base.outcome import USABLE
+from foilstudy.plot.style import (
+    PAGE_WIDTH,
+    message_panel,
+    new_figure,
+    overlength_label,
+    styled,
+    thickness_label,
+)
+
+_PARTS = {"bending": ("0.35", ""), "membrane": ("0.65", ""), "stabilisation": ("#d95f02", "///")}
+
+
+@styled
+def draw(cube):
+    """Draw one panel per thickness, one bar per overlength.
+
+    Parameters
+    ----------
+    cube : xarray.Dataset
+    """
+    usable = cube["status"].isin(USABLE)
+    parts = {
+        name: cube[f"{name}_energy"]
+        .where(usable)
+        .mean("seed")
+        .transpose("thickness", "overlength")
+        .to_numpy()
+        for name in _PARTS
+    }
+    thicknesses = cube["thickness"].to_numpy()
+    overlengths = cube["overlength"].to_numpy()
+    columns = min(4, thicknesses.size)
+    rows = -(-thicknesses.size // columns)
+    figure = new_figure(min(PAGE_WIDTH, 2.2 * columns + 2.2), 3.0 * rows + 0.5)
+    axes = figure.subplots(rows, columns, sharey=True, squeeze=False).ravel()
+    for i, (ax, thickness) in enumerate(zip(axes, thicknesses)):
+        ax.set_title(thickness_label(thickness), pad=16)
+        _bars(ax, {name: values[i] for name, values in parts.items()}, overlengths)
+    for ax in axes[thicknesses.size :]:
+        ax.set_visible(False)
+    for ax in axes[::columns]:
+        ax.set_ylabel("share of strain energy (%)")
+    handles, labels = max(
+        (ax.get_legend_handles_labels() for ax in axes), key=lambda pair: len(pair[0])
+    )
+    if handles:
+        figure.legend(handles, labels, loc="outside lower center", ncols=3)
+    return figure
+
+
+def _bars(ax, parts, overlengths) -> None:
+    total = sum(parts.values())
+    known = np.isfinite(total) & (total > 0)
+    if not known.any():
+        message_panel(ax, "no usable realisation")
+        return
+    x = np.arange(overlengths.size)
+    base = np.zeros(overlengths.size)
+    for name, (colour, hatch) in _PARTS.items():
+        share = np.where(known, 100 * parts[name] / np.where(known, total, 1), 0)
+        ax.bar(
+            x, share, 0.78, base, color=colour, hatch=hatch, edgecolor="white", lw=0.6, label=name
+        )
+        base = base + share
+    for i in x:
+        text = _joules(total[i]) if known[i] else "none\nusable"
+        ax.text(i, 102 if known[i] else 2, text, ha="center", va="bottom", fontsize=8, color="0.25")
+    ax.set_ylim(0, 100)
+    ax.grid(axis="x", visible=False)
+    ax.set_xticks(x, [overlength_label(o)[:-2] for o in overlengths])
+    ax.set_xlabel("overlength (%)")
+
+
+def _joules(energy: float) -> str:
+    factor, unit = next(
+        ((f, u) for f, u in ((1, "J"), (1e3, "mJ")) if energy * f >= 0.1), (1e6, "µJ")
+    )
+    return f"{energy * factor:.2g} {unit}"

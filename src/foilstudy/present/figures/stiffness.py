@@ -1,0 +1,150 @@
+"""Static stiffness against overlength."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from foilstudy.base.reference import published
+from foilstudy.plot.style import (
+    BAND_ALPHA,
+    GREY,
+    PAGE_WIDTH,
+    decade_ticks,
+    new_figure,
+    ordered_colours,
+    overlength_axis,
+    span,
+    styled,
+    thickness_label,
+)
+from foilstudy.present.statistics import simulated_law, stiffness_summary
+
+_MINE, _LIMIT = ordered_colours(5)[1:4:2]
+_LEGEND = (
+    "this study: mean, min to max",
+    "this study: fit",
+    "same shapes, mesh limit ± error",
+    "uncrumpled cylinder (bound)",
+    "published simulation (fit)",
+    "published experiment (fit)",
+)
+
+
+@styled
+def draw(cube, direction: str):
+    """Draw the stiffness in one direction, one panel per thickness.
+
+    Parameters
+    ----------
+    cube : xarray.Dataset
+    direction
+        ``axial`` or ``radial``.
+    """
+    table = stiffness_summary(cube)
+    table = table[table["direction"] == direction]
+    law = simulated_law(cube, direction)
+    thicknesses = cube["thickness"].to_numpy()
+    overlengths = cube["overlength"].to_numpy()
+    columns = min(4, thicknesses.size)
+    rows = -(-thicknesses.size // columns)
+    figure = new_figure(min(PAGE_WIDTH, 2.0 * columns + 4.6), 3.6 * rows + 0.6)
+    axes = figure.subplots(rows, columns, sharey=True, squeeze=False).ravel()
+    fine = np.geomspace(*span(overlengths, 1.15), 60)
+    for ax, thickness in zip(axes, thicknesses):
+        ax.set_title(thickness_label(thickness))
+        ax.set_yscale("log")
+        overlength_axis(ax, overlengths)
+        _panel(ax, table[table["thickness_um"] == thickness])
+        _laws(ax, law, direction, fine, thickness)
+    for ax in axes[thicknesses.size :]:
+        ax.set_visible(False)
+    decade_ticks(axes[0].yaxis)
+    for ax in axes[::columns]:
+        ax.set_ylabel(f"{direction} stiffness (N/m)")
+    by_label = dict(zip(*axes[0].get_legend_handles_labels()[::-1]))
+    figure.legend(
+        [by_label[label] for label in _LEGEND],
+        _LEGEND,
+        loc="outside lower center",
+        ncols=3 if columns > 2 else 2,
+    )
+    figure.suptitle(_law_text(law), fontsize=10.5)
+    return figure
+
+
+def _panel(ax, rows) -> None:
+    x = rows["overlength_percent"].to_numpy()
+    mean = rows["mean"].to_numpy()
+    ax.plot(
+        x,
+        rows["cylinder_bound"],
+        color="0.6",
+        lw=1.2,
+        ls=(0, (1, 1)),
+        marker="_",
+        ms=7,
+        label="uncrumpled cylinder (bound)",
+    )
+    ax.fill_between(x, rows["min"], rows["max"], color=_MINE, alpha=BAND_ALPHA, lw=0)
+    ax.errorbar(
+        x,
+        mean,
+        yerr=[mean - rows["min"], rows["max"] - mean],
+        fmt="o",
+        color=_MINE,
+        ms=5.5,
+        elinewidth=1,
+        capsize=2,
+        label="this study: mean, min to max",
+    )
+    limit, error = rows["mesh_limit_mean"].to_numpy(), rows["mesh_error_mean"].to_numpy()
+    ax.errorbar(
+        x,
+        limit,
+        # an error as large as the value would leave a logarithmic axis
+        yerr=[np.minimum(error, 0.9 * limit), error],
+        fmt="s",
+        color=_LIMIT,
+        mfc="white",
+        mew=1.4,
+        ms=5.5,
+        elinewidth=1.4,
+        capsize=3.5,
+        label="same shapes, mesh limit ± error",
+    )
+
+
+def _laws(ax, law, direction: str, overlength, thickness: float) -> None:
+    # A single overlength has no law in overlength to draw.
+    fit = law.stiffness(overlength, thickness) if np.isfinite(law.beta) else overlength * np.nan
+    ax.plot(overlength, fit, color=_MINE, label="this study: fit")
+    for source, style in (("simulation", "--"), ("experiment", "-.")):
+        other = published().power_laws[direction][source]
+        ax.plot(
+            overlength,
+            other.stiffness(overlength, thickness),
+            color="k" if source == "simulation" else GREY,
+            ls=style,
+            lw=1.3,
+            label=f"published {source} (fit)",
+        )
+
+
+def _law_text(law) -> str:
+    if not np.isfinite(law.alpha):
+        return law.fit.note
+    if not np.isfinite(law.beta) or not np.isfinite(law.gamma):
+        return f"sweep too small for the law; usable realisations: {law.fit.n}"
+
+    def term(key):
+        half = law.fit.high[key] - law.fit.value[key]
+        if not np.isfinite(half):
+            return f"{law.fit.value[key]:.2f}"
+        return f"{law.fit.value[key]:.2f} ± {half:.2f}"
+
+    r2 = f", $R^2$ = {law.fit.r2:.3f}" if np.isfinite(law.fit.r2) else ""
+    return (
+        f"stiffness ∝ overlength$^{{\\mathsf{{{term('overlength')}}}}}$ · "
+        f"thickness$^{{\\mathsf{{{term('thickness')}}}}}$"
+        f"{r2}, $n$ = {law.fit.n} (± 95 %)"
+    ).replace("-", "−")

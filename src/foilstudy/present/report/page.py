@@ -1,0 +1,299 @@
+"""Assemble ``report.html``: findings, figures, shapes, health and provenance on one page."""
+
+import base64
+import hashlib
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import jinja2
+import pandas as pd
+import xarray as xr
+import yaml
+
+from foilstudy.base.files import written_whole
+from foilstudy.base.reference import published
+from foilstudy.present.figures import FIGURES
+from foilstudy.present.figures.registry import PNG_DPI
+from foilstudy.present.report import (
+    equilibrium,
+    exponents,
+    findings,
+    isolation,
+    laws,
+    mesh,
+    modes,
+    numerals,
+    prestress,
+    viewer,
+)
+from foilstudy.present.report.health import assess
+from foilstudy.present.statistics.isolation import isolation_options
+
+TEMPLATES = Path(__file__).parent / "templates"
+
+SECTIONS = {
+    "stiffness": ("stiffness_axial", "stiffness_radial"),
+    "shapes": ("morphology", "seeds"),
+    "static": ("stiffness_map", "fit_quality"),
+    "prestress": ("prestressed",),
+    "variability": ("variability",),
+    "dynamic": ("dynamic_stiffness", "convergence_high_frequency"),
+    "eigenfrequency": ("eigenfrequency_law", "modal_density", "mac_seeds"),
+    "isolation": ("design_chart", "transmissibility"),
+    "mesh": ("mesh_error", "energy"),
+    "health": ("history",),
+}
+"""Where each figure stands; one not named here follows the last of the results."""
+
+SVG_BYTES_MAX = 600_000
+"""A larger vector drawing is slower to show than its picture in dots."""
+
+CSS_PIXELS_PER_INCH = 96
+
+
+@dataclass(frozen=True)
+class ReportInputs:
+    """Everything that the report is made from.
+
+    Attributes
+    ----------
+    cube_path
+        The study's ``cube.nc``.
+    powerlaw_csv, variability_csv, eigenfrequency_csv, stiffness_summary_csv, isolation_csv
+        The tables of the same cube.
+    figures_dir
+        Folder of ``<figure id>.png`` and ``.svg``; it may be empty.
+    crumple_paths
+        ``crumple.nc`` of the realisations; a handful is chosen for the 3-D view.
+    response_paths
+        ``response.nc`` of the realisations, for their modes; it may be empty.
+    benchmarks_dir
+        Folder of the workflow's benchmark tables; None when there is none.
+    """
+
+    cube_path: Path
+    powerlaw_csv: Path
+    variability_csv: Path
+    eigenfrequency_csv: Path
+    stiffness_summary_csv: Path
+    isolation_csv: Path
+    figures_dir: Path
+    crumple_paths: Sequence[Path]
+    response_paths: Sequence[Path] = ()
+    benchmarks_dir: Path | None = None
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A picture as it stands in the page."""
+
+    id: str
+    title: str
+    caption: str
+    source: str
+    width: int | None
+
+
+def write_report(inputs: ReportInputs, out_path: Path) -> Path:
+    """Write the self-contained report of a study.
+
+    Parameters
+    ----------
+    inputs
+        Cube, tables, figures and shapes of one study.
+    out_path
+        The page to write. It appears complete or not at all.
+
+    Returns
+    -------
+    Path
+        ``out_path``.
+
+    Raises
+    ------
+    FileNotFoundError
+        If the cube or a table is missing.
+    """
+    out_path = Path(out_path)
+    with xr.open_dataset(inputs.cube_path) as cube:
+        content = _content(inputs, cube, out_path.parent)
+    page = _environment().get_template("report.html").render(content)
+    with written_whole(out_path) as partial:
+        partial.write_text(page, encoding="utf-8")
+    return out_path
+
+
+def _environment() -> jinja2.Environment:
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(TEMPLATES),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    for name in ("number", "nominal", "fixed", "percent", "duration", "plural", "stiffness"):
+        environment.filters[name] = getattr(numerals, name)
+    return environment
+
+
+def _content(inputs: ReportInputs, cube: xr.Dataset, folder: Path) -> dict:
+    powerlaw, summary, variability, eigenfrequency, links = (
+        pd.read_csv(path)
+        for path in (
+            inputs.powerlaw_csv,
+            inputs.stiffness_summary_csv,
+            inputs.variability_csv,
+            inputs.eigenfrequency_csv,
+            inputs.isolation_csv,
+        )
+    )
+    config = yaml.safe_load(cube.attrs.get("config", "")) or {}
+    health = assess(cube, inputs.benchmarks_dir)
+    settling = equilibrium.assess_equilibrium(cube, config)
+    mesh_errors = mesh.assess_mesh(cube)
+    read_laws = laws.read_laws(powerlaw, summary)
+    chosen = viewer.choose_shapes(inputs.crumple_paths)
+    shapes = viewer.viewer_data(chosen, inputs.response_paths)
+    script = (TEMPLATES / "viewer.js").read_text("utf-8")
+    return {
+        "title": config.get("report", {}).get("title", "Crumpled foil"),
+        "study": cube.attrs.get("study", ""),
+        "scope": _scope(cube, config),
+        "laws": read_laws,
+        "exponent_words": exponents.exponent_findings(read_laws),
+        "locking_words": mesh.PUBLISHED_LOCKING,
+        "middle": laws.middle_of_sweep(summary),
+        "stiffness_words": findings.stiffness_findings(summary),
+        "prestress_words": prestress.prestress_findings(cube, variability, read_laws),
+        "prestress_rows": prestress.prestress_rows(cube, variability),
+        "relaxed_words": prestress.relaxed_findings(cube),
+        "relaxed_rows": prestress.relaxed_rows(cube),
+        "variability_words": findings.variability_findings(variability),
+        "dynamic_words": findings.dynamic_findings(cube),
+        "overlength_words": modes.overlength_findings(cube),
+        "eigenfrequency_words": findings.eigenfrequency_findings(eigenfrequency, cube),
+        "modal_density_words": modes.modal_density_findings(cube),
+        "isolation_words": isolation.isolation_findings(links, isolation_options(cube)),
+        "bend_words": laws.bend_sentence(powerlaw),
+        "fit_words": laws.fit_findings(powerlaw),
+        "mesh": mesh_errors,
+        "mesh_words": mesh.mesh_sentence(mesh_errors, config),
+        "stated_error_words": mesh.stated_error_sentence(mesh_errors),
+        "share_words": mesh.share_sentence(config),
+        "equilibrium": settling,
+        "equilibrium_words": equilibrium.equilibrium_findings(settling),
+        "shape_words": findings.shape_findings(cube, published()),
+        "health": health,
+        "health_words": findings.health_sentence(health),
+        "figures": _figures(inputs.figures_dir),
+        "viewer": shapes,
+        "gradient": _gradient(),
+        "style": (TEMPLATES / "report.css").read_text("utf-8"),
+        "script": script,
+        "script_hash": base64.b64encode(hashlib.sha256(script.encode()).digest()).decode(),
+        "config": cube.attrs.get("config", ""),
+        "provenance": _provenance(cube),
+        "citation": published().citation,
+        "files": _files(inputs, folder),
+    }
+
+
+def _scope(cube: xr.Dataset, config: dict) -> list[str]:
+    """Say in a few phrases what was simulated."""
+
+    def span(name: str, noun: str, unit: str) -> str:
+        values = cube[name].values
+        ends = numerals.nominal(float(values[0]))
+        if values.size > 1:
+            ends += f" to {numerals.nominal(float(values[-1]))}"
+        return f"{numerals.plural(values.size, noun)} ({ends} {unit})"
+
+    phrases = [
+        f"{span('thickness', 'thickness', 'µm')} × {span('overlength', 'overlength', '%')} × "
+        f"{numerals.plural(cube.sizes['seed'], 'seed')}"
+    ]
+    sheet, material = config.get("sheet", {}), config.get("material", {})
+    if sheet:
+        phrases.append(
+            f"cylinder {numerals.nominal(sheet['diameter_mm'])} mm in diameter, crumpled into a "
+            f"gap of {numerals.nominal(sheet['gap_height_mm'])} mm"
+        )
+    if material:
+        phrases.append(
+            f"{material['name']}, E = {numerals.nominal(material['youngs_modulus_mpa'])} MPa, "
+            f"ν = {numerals.nominal(material['poisson_ratio'])}"
+        )
+    if "mesh" in config:
+        phrases.append(f"{mesh.element_kind(config)} elements {_element_size(config['mesh'])}")
+    return phrases
+
+
+def _element_size(section: dict) -> str:
+    size = section["element_size_mm"]
+    if size == "auto":
+        error = numerals.nominal(section["energy_error_percent"])
+        return f"sized for an energy error of {error} %"
+    return f"of {numerals.nominal(size)} mm"
+
+
+def _figures(folder: Path) -> dict[str, list[Figure]]:
+    """Embed every figure of the study that there is, by section."""
+    stems = {path.stem for path in Path(folder).glob("*") if path.suffix in (".png", ".svg")}
+    placed = {stem: name for name, order in SECTIONS.items() for stem in order}
+    sections: dict[str, list[Figure]] = {name: [] for name in (*SECTIONS, "other")}
+    for stem in [*placed, *(stem for stem in FIGURES if stem not in placed)]:
+        if stem in stems:
+            entry = FIGURES[stem]
+            picture = _picture(Path(folder), stem)
+            sections[placed.get(stem, "other")].append(
+                Figure(stem, entry.title, entry.caption, *picture)
+            )
+    return sections
+
+
+def _picture(folder: Path, stem: str) -> tuple[str, int | None]:
+    """Return the data address of a figure, and its width in CSS pixels where the file lacks it."""
+    vector, dots = folder / f"{stem}.svg", folder / f"{stem}.png"
+    if vector.exists() and (not dots.exists() or vector.stat().st_size <= SVG_BYTES_MAX):
+        return _data_address(vector.read_bytes(), "svg+xml"), None
+    content = dots.read_bytes()
+    # The first chunk of a PNG begins with its width in dots.
+    width = int.from_bytes(content[16:20], "big")
+    return _data_address(content, "png"), round(width * CSS_PIXELS_PER_INCH / PNG_DPI)
+
+
+def _data_address(content: bytes, kind: str) -> str:
+    return f"data:image/{kind};base64,{base64.b64encode(content).decode('ascii')}"
+
+
+def _gradient() -> str:
+    """CSS stops of the radial displacement colours, from inward to outward."""
+    return ", ".join("rgb({}, {}, {})".format(*rgb) for rgb in viewer.colour_table()[::17])
+
+
+def _provenance(cube: xr.Dataset) -> list[tuple[str, str]]:
+    return [
+        (name.replace("_", " "), str(value))
+        for name, value in cube.attrs.items()
+        if name != "config"
+    ]
+
+
+def _files(inputs: ReportInputs, folder: Path) -> list[tuple[str, str, str]]:
+    """Links to the files that the page was made from: text, relative address, content."""
+    described = [
+        (inputs.cube_path, "all numbers of all realisations (NetCDF-4)"),
+        (inputs.powerlaw_csv, "power laws, their uncertainty and the published ones"),
+        (inputs.stiffness_summary_csv, "static stiffness of every configuration"),
+        (inputs.variability_csv, "coefficients of variation"),
+        (inputs.eigenfrequency_csv, "exponents of the first eigenfrequency"),
+        (inputs.isolation_csv, "links of every configuration beside a mount"),
+        (inputs.figures_dir, "the figures as PNG and SVG"),
+    ]
+    links = []
+    for path, meaning in described:
+        relative = Path(os.path.relpath(path, folder)).as_posix()
+        links.append((relative, jinja2.filters.do_urlencode(relative), meaning))
+    return links

@@ -1,0 +1,113 @@
+"""Which cells of the cube count, and the cube as flat arrays for fitting."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from foilstudy.base.outcome import USABLE
+
+
+@dataclass(frozen=True)
+class Samples:
+    """Usable values of one variable, one entry per realisation.
+
+    Attributes
+    ----------
+    thickness_um, overlength_percent, reference_height_mm, value : ndarray, shape (n,)
+    """
+
+    thickness_um: np.ndarray
+    overlength_percent: np.ndarray
+    reference_height_mm: np.ndarray
+    value: np.ndarray
+
+    @property
+    def configuration(self) -> np.ndarray:
+        """Integer label of each sample's thickness and overlength, shape (n,)."""
+        pairs = np.column_stack([self.thickness_um, self.overlength_percent])
+        return np.unique(pairs, axis=0, return_inverse=True)[1].ravel()
+
+    def at_thickness(self, thickness_um: float) -> Samples:
+        """Return the samples of one thickness."""
+        keep = self.thickness_um == thickness_um
+        return Samples(
+            self.thickness_um[keep],
+            self.overlength_percent[keep],
+            self.reference_height_mm[keep],
+            self.value[keep],
+        )
+
+
+def usable(values):
+    """Return `values` with NaN wherever they are not finite and positive."""
+    return values.where(np.isfinite(values) & (values > 0))
+
+
+def measured(cube, name: str, **selection):
+    """Return variable `name`, of either sign, where the realisation left a shape.
+
+    Parameters
+    ----------
+    cube : xarray.Dataset
+    name
+        A quantity with dimensions thickness, overlength, seed and maybe others.
+    selection
+        Passed to ``sel``, for example ``direction="axial"``.
+
+    Returns
+    -------
+    xarray.DataArray
+        NaN where the realisation diverged or failed, or the value is not finite.
+    """
+    values = cube[name]
+    return values.where(np.isfinite(values) & cube["status"].isin(USABLE)).sel(**selection)
+
+
+def good(cube, name: str, **selection):
+    """Return variable `name` with every cell that must not enter the statistics set to NaN.
+
+    Parameters
+    ----------
+    cube : xarray.Dataset
+    name
+        A positive quantity with dimensions thickness, overlength, seed and maybe others.
+    selection
+        Passed to ``sel``, for example ``direction="axial"``.
+
+    Returns
+    -------
+    xarray.DataArray
+        NaN where the realisation diverged or failed, or the value is not finite and positive.
+    """
+    return usable(measured(cube, name, **selection))
+
+
+def relative_mesh_error(cube):
+    """Return the stated mesh error of the stress-free stiffness over its mesh limit.
+
+    Parameters
+    ----------
+    cube : xarray.Dataset
+
+    Returns
+    -------
+    xarray.DataArray
+        Share of one, with dimensions thickness, overlength, seed, direction; NaN where it was not
+        measured.
+    """
+    return measured(cube, "static_stiffness_mesh_error") / good(cube, "static_stiffness_converged")
+
+
+def samples(cube, name: str, **selection) -> Samples:
+    """Return the usable values of variable `name` as flat arrays; see `good`."""
+    values = good(cube, name, **selection).transpose("thickness", "overlength", "seed")
+    array = values.to_numpy()
+    i, j, _ = np.nonzero(np.isfinite(array))
+    return Samples(
+        thickness_um=cube["thickness"].to_numpy()[i].astype(float),
+        overlength_percent=cube["overlength"].to_numpy()[j].astype(float),
+        reference_height_mm=cube["reference_height"].to_numpy()[j].astype(float),
+        value=array[np.isfinite(array)],
+    )

@@ -1,4 +1,0 @@
-"""One realisation, from its task to its files.
-
-Nothing is imported here: a job loads only the part that it runs.
-"""

@@ -1,5 +1,0 @@
-"""The study as one self-contained page that answers first, then shows, then proves."""
-
-from foilstudy.report.page import ReportInputs, write_report
-
-__all__ = ["ReportInputs", "write_report"]

@@ -1,0 +1,229 @@
+"""From any shape of a sheet between its rings to a stable equilibrium.
+
+Explicit relaxation is cheap and goes through many snaps; once it is in a basin, quasi-Newton steps
+with a factored tangent end it in few. So the sheet is relaxed to a moderate residual and then
+minimised; what turns out to have another snap ahead is relaxed again, further down. A sheet that
+still snaps after many steps is minimised all the way: slower, but each step lowers the energy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sparse
+
+from foilstudy.model.patch import RING_ROWS
+from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.tangent import stiffness_matrix
+from foilstudy.solve.equilibrium.newton import NewtonOptions, NewtonResult, minimise
+from foilstudy.solve.relaxation import Ramp, Scheme, StoppingRule, relax
+
+_NO_MOTION = Ramp(0.0, 0)
+_FREE = slice(RING_ROWS, -RING_ROWS)
+
+
+class HeldSheet:
+    """Strain energy of a sheet whose rings stand still, a potential for `minimise`.
+
+    Parameters
+    ----------
+    sheet : SheetModel
+    points : ndarray, shape (3, rows, columns)
+        Control points, m; those of the rings are kept.
+
+    Attributes
+    ----------
+    ring_force : float
+        Norm of the force on the rings at the last evaluation, N.
+    """
+
+    def __init__(self, sheet: SheetModel, points: np.ndarray):
+        self._sheet, self._points = sheet, points.copy()
+        self._force = np.empty_like(points)
+        self._at: np.ndarray | None = None
+        self.ring_force = np.nan
+
+    def unknowns(self, points: np.ndarray) -> np.ndarray:
+        """The free control points as one vector, in the order of the stiffness matrix."""
+        return points[:, _FREE].transpose(1, 2, 0).reshape(-1)
+
+    def points(self, q: np.ndarray) -> np.ndarray:
+        """Control points, shape (3, rows, columns), m."""
+        points = self._points.copy()
+        free = points[:, _FREE]
+        free[:] = q.reshape(free.shape[1], free.shape[2], 3).transpose(2, 0, 1)
+        return points
+
+    def value_and_gradient(self, q: np.ndarray) -> tuple[float, np.ndarray]:
+        """Strain energy (J) and force on the free control points (N)."""
+        energies = self._sheet.force(self.points(q), self._force)
+        rings = self._force[:, :RING_ROWS], self._force[:, -RING_ROWS:]
+        self.ring_force, self._at = float(np.linalg.norm(np.stack(rings))), q
+        return float(energies.sum()), self.unknowns(self._force)
+
+    def hessian(self, q: np.ndarray) -> sparse.csr_matrix:
+        """Tangent stiffness of the free control points, N/m."""
+        owned = RING_ROWS * 3 * self._sheet.patch.columns
+        matrix = stiffness_matrix(self._sheet, self.points(q))
+        return matrix[owned:-owned, owned:-owned].tocsr()
+
+    def ring_force_at(self, q: np.ndarray) -> float:
+        """Norm of the force on the rings, N: the scale of residuals."""
+        if self._at is not q:
+            self.value_and_gradient(q)
+        return self.ring_force
+
+
+@dataclass(frozen=True)
+class SettleOptions:
+    """How far, and how.
+
+    Attributes
+    ----------
+    residual_tolerance : float
+        Largest norm of the force on the free control points relative to that on the rings.
+    switch_residual : float
+        Residual at which relaxation gives way to the minimisation, a third of it in every further
+        round. From 1e-4 the minimisation ended in the basin of the relaxation in every crumple
+        tried, from 1e-3 not always, though one tangent is nearly always enough there too.
+    relaxation_steps_max : int
+        Steps of relaxation, over all rounds.
+    hessians_per_round : int
+        Tangents formed before the sheet is relaxed again.
+    hessians_last : int
+        Tangents formed once no steps of relaxation are left; up to 20 were needed.
+    rounds_max : int
+    """
+
+    residual_tolerance: float = 1e-8
+    switch_residual: float = 1e-4
+    relaxation_steps_max: int = 14_000
+    hessians_per_round: int = 3
+    hessians_last: int = 60
+    rounds_max: int = 10
+
+
+@dataclass(frozen=True)
+class SettleResult:
+    """Outcome of settling a sheet.
+
+    Attributes
+    ----------
+    status : str
+        ``converged`` (residual met and no negative eigenvalue), ``not_converged`` or ``diverged``.
+    message : str
+        One sentence on the status.
+    points : ndarray, shape (3, rows, columns)
+        Control points, m.
+    residual : float
+    negative_eigenvalues : int or None
+        Of the tangent with the rings held; None where it was not counted.
+    relaxation_steps, hessians, newton_steps : int
+        Work done: explicit steps, tangents formed, quasi-Newton steps.
+    """
+
+    status: str
+    message: str
+    points: np.ndarray
+    residual: float
+    negative_eigenvalues: int | None
+    relaxation_steps: int
+    hessians: int
+    newton_steps: int
+
+
+def settle(
+    sheet: SheetModel, scheme: Scheme, points: np.ndarray, options: SettleOptions | None = None
+) -> SettleResult:
+    """Stable equilibrium with the rings held, from any shape.
+
+    Parameters
+    ----------
+    sheet : SheetModel
+    scheme : Scheme
+        Of the relaxation; its damping after the ramp is used.
+    points : ndarray, shape (3, rows, columns)
+        Control points to start from, m.
+    options : SettleOptions, optional
+
+    Returns
+    -------
+    SettleResult
+        Never raises for a sheet that does not settle: the status says so.
+    """
+    options = options or SettleOptions()
+    steps = hessians = newton_steps = 0
+    for each in range(options.rounds_max):
+        residual = max(options.switch_residual / 3**each, options.residual_tolerance)
+        left = options.relaxation_steps_max - steps
+        relaxed = relax(sheet, scheme, _NO_MOTION, _until(residual, left), points)
+        points, steps = relaxed.points, steps + relaxed.steps
+        if relaxed.status == "diverged":
+            return SettleResult(
+                relaxed.status, relaxed.message, points, relaxed.residual, None,
+                steps, hessians, newton_steps,
+            )  # fmt: skip
+        last = relaxed.status == "not_converged"
+        most = options.hessians_last if last else options.hessians_per_round
+        points, polished = _polish(sheet, points, options.residual_tolerance, most)
+        hessians, newton_steps = hessians + polished.iterations, newton_steps + polished.steps
+        if polished.status == "converged" or last:
+            break
+    status = "converged" if polished.status == "converged" else "not_converged"
+    return SettleResult(
+        status, polished.message, points, polished.residual, polished.negative_eigenvalues,
+        steps, hessians, newton_steps,
+    )  # fmt: skip
+
+
+def _polish(
+    sheet: SheetModel, points: np.ndarray, residual_tolerance: float, hessians_max: int
+) -> tuple[np.ndarray, NewtonResult]:
+    """Minimise the energy with the rings held; the new control points and the outcome."""
+    held = HeldSheet(sheet, points)
+    newton = NewtonOptions(
+        residual_tolerance=residual_tolerance,
+        scale=held.ring_force_at,
+        iterations_max=hessians_max,
+    )
+    result = minimise(held, held.unknowns(points), newton)
+    return held.points(result.q), result
+
+
+def stopped_at(
+    sheet: SheetModel,
+    scheme: Scheme,
+    points: np.ndarray,
+    residuals: Iterable[float],
+    relaxation_steps_max: int = 40_000,
+) -> Iterator[tuple[float, np.ndarray]]:
+    """Where a relaxation would have been stopped by each of several residuals.
+
+    Between two of them the motion begins anew at rest. Ends early where a residual is not reached.
+
+    Parameters
+    ----------
+    residuals : iterable of float
+        Falling.
+
+    Yields
+    ------
+    residual : float
+        The one that was asked for.
+    points : ndarray, shape (3, rows, columns)
+        m.
+    """
+    for residual in residuals:
+        rule = _until(residual, relaxation_steps_max)
+        result = relax(sheet, scheme, _NO_MOTION, rule, points)
+        if result.status != "converged":
+            return
+        points = result.points
+        yield residual, points
+
+
+def _until(residual: float, steps_max: int) -> StoppingRule:
+    """Stop at a residual, however the sheet may still move."""
+    return StoppingRule(residual, np.inf, steps_max)

@@ -1,0 +1,96 @@
+"""Potential energy of a sheet that is held at edges and loaded, for `newton.minimise`."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.sparse as sparse
+
+from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.tangent import stiffness_matrix
+from foilstudy.model.supports.edges import Constraints
+from foilstudy.model.supports.loads import Load
+
+
+class LoadedSheet:
+    """Strain energy minus the work of a load, as a function of the free unknowns.
+
+    Parameters
+    ----------
+    sheet : SheetModel
+    constraints : Constraints
+    load : Load
+    factor : float
+        Multiplies the load.
+    base : ndarray, shape (3, rows, columns), optional
+        Control points at which the unknowns are zero, m: the stress-free shape unless supports
+        have been moved.
+
+    Attributes
+    ----------
+    sheet, constraints, load, factor
+        As given.
+    """
+
+    def __init__(
+        self,
+        sheet: SheetModel,
+        constraints: Constraints,
+        load: Load,
+        factor: float = 1.0,
+        base: np.ndarray | None = None,
+    ):
+        self.sheet = sheet
+        self.constraints = constraints
+        self.load = load
+        self.factor = factor
+        self._base = sheet.reference if base is None else base
+
+    def at(self, factor: float) -> LoadedSheet:
+        """The same sheet under another multiple of the load."""
+        return LoadedSheet(self.sheet, self.constraints, self.load, factor, self._base)
+
+    def points(self, unknowns: np.ndarray) -> np.ndarray:
+        """Control points, shape (3, rows, columns), m."""
+        return self._base + self.constraints.displacement(unknowns)
+
+    def unknowns(self, points: np.ndarray) -> np.ndarray:
+        """The unknowns of a shape that keeps to the supports."""
+        return self.constraints.reduced(points - self._base)
+
+    def value_and_gradient(self, q: np.ndarray) -> tuple[float, np.ndarray]:
+        """Potential (J) and its gradient; see `newton.Potential`."""
+        points = self.points(q)
+        internal = np.empty_like(points)
+        energy = float(np.sum(self.sheet.force(points, internal)))
+        work, force = self.load.work_and_force(points)
+        gradient = self.constraints.reduced(internal - self.factor * force)
+        return energy - self.factor * work, gradient
+
+    def hessian(self, q: np.ndarray) -> sparse.csr_matrix:
+        """Tangent on the unknowns, load stiffness included; see `newton.Potential`."""
+        points = self.points(q)
+        tangent = stiffness_matrix(self.sheet, points)
+        return self.constraints.reduced_matrix(tangent - self.factor * self.load.stiffness(points))
+
+    def rounding(self) -> float:
+        """Norm of the force that rounding leaves on a shape without any, N.
+
+        Measured on the stress-free shape after a translation, which in exact arithmetic does
+        nothing. On a thin sheet it is far from negligible: membrane stiffness times position
+        times machine precision, beside forces of bending.
+        """
+        size = np.ptp(self.sheet.reference.reshape(3, -1), axis=1).max()
+        moved = self.sheet.reference + size * np.array([0.3, 0.7, 0.1])[:, None, None]
+        force = np.empty_like(moved)
+        self.sheet.force(moved, force)
+        return float(np.linalg.norm(force))
+
+    def internal_force_size(self, q: np.ndarray) -> float:
+        """Norm of the internal force on all control points, N: the scale of residuals.
+
+        In equilibrium it is that of the loads and the reactions together.
+        """
+        points = self.points(q)
+        internal = np.empty_like(points)
+        self.sheet.force(points, internal)
+        return float(np.linalg.norm(internal))

@@ -1,0 +1,296 @@
+"""The relaxation loop: a ring motion, then relaxation until the stopping rule holds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numba import njit
+
+from foilstudy.model.patch import RING_ROWS
+from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.solve.relaxation.damping import Damping
+from foilstudy.solve.relaxation.mass_scaling import MassScaling
+
+
+@dataclass(frozen=True)
+class Ramp:
+    """Smooth motion of the top ring down to the gap height, in `steps` pseudo-time steps.
+
+    With zero steps the ring stands still.
+    """
+
+    shortening: float
+    steps: int
+
+    def shortening_at(self, step: int) -> float:
+        """Quintic ramp 10 tau^3 - 15 tau^4 + 6 tau^5: no velocity or acceleration at its ends."""
+        tau = min(step / self.steps, 1.0) if self.steps else 1.0
+        return self.shortening * tau**3 * (10 + tau * (-15 + 6 * tau))
+
+
+@dataclass(frozen=True)
+class Scheme:
+    """The fictitious dynamics: a mass, and a damping for each of the two phases."""
+
+    mass: MassScaling
+    ramp_damping: Damping
+    relaxation_damping: Damping
+
+
+@dataclass(frozen=True)
+class StoppingRule:
+    """When a relaxation counts as converged, and when to give up.
+
+    Attributes
+    ----------
+    residual_tolerance : float
+        Largest norm of the force on the free control points relative to that on the rings.
+    kinetic_energy_tolerance : float
+        Largest kinetic energy (of the fictitious mass) relative to the strain energy.
+    relaxation_steps_max : int
+        Steps allowed after the ramp.
+    check_interval : int
+        Steps between two checks and two history entries.
+    """
+
+    residual_tolerance: float
+    kinetic_energy_tolerance: float
+    relaxation_steps_max: int
+    check_interval: int = 20
+
+
+@dataclass(frozen=True)
+class History:
+    """Quantities along the steps, one array entry per check.
+
+    Height in m, reaction force on the top ring in N (positive when the sheet pushes it up),
+    energies in J, residual relative.
+    """
+
+    step: np.ndarray
+    height: np.ndarray
+    reaction_force: np.ndarray
+    membrane_energy: np.ndarray
+    bending_energy: np.ndarray
+    stabilisation_energy: np.ndarray
+    kinetic_energy: np.ndarray
+    residual: np.ndarray
+
+
+@dataclass(frozen=True)
+class RelaxationResult:
+    """Outcome of a relaxation.
+
+    Attributes
+    ----------
+    status : str
+        ``converged``, ``not_converged`` (step limit reached) or ``diverged``.
+    message : str
+        One sentence on the status.
+    points : ndarray, shape (3, rows, columns)
+        Last control points, m.
+    residual, kinetic_energy_ratio : float
+        At the end.
+    steps : int
+        Steps done, ramp included.
+    history : History
+    """
+
+    status: str
+    message: str
+    points: np.ndarray
+    residual: float
+    kinetic_energy_ratio: float
+    steps: int
+    history: History
+
+
+_UNSTABLE = 0.5
+"""Kinetic over strain energy at the step limit above which the motion feeds itself."""
+
+
+@njit(cache=True, fastmath=True, error_model="numpy")
+def _advance(momentum, force, previous, free_start, free_stop, damping):
+    """momentum <- ((1 - c/2) momentum - f) / (1 + c/2) on the free rows."""
+    keep = (1.0 - 0.5 * damping) / (1.0 + 0.5 * damping)
+    push = -1.0 / (1.0 + 0.5 * damping)
+    for c in range(3):
+        for j in range(free_start, free_stop):
+            m = momentum[c, j - free_start]
+            f = force[c, j]
+            o = previous[c, j - free_start]
+            for i in range(f.size):
+                m[i] = keep * m[i] + push * f[i]
+                o[i] = f[i]
+
+
+@njit(cache=True, fastmath=True, error_model="numpy")
+def _move(points, velocity, share, lowering, free_start, free_stop):
+    """Add the velocity on the free rows and every row's share of the ring's motion."""
+    for j in range(points.shape[1]):
+        drop = lowering * share[j]
+        z = points[2, j]
+        for i in range(z.size):
+            z[i] -= drop
+    for c in range(3):
+        for j in range(free_start, free_stop):
+            x = points[c, j]
+            v = velocity[c, j - free_start]
+            for i in range(x.size):
+                x[i] += v[i]
+
+
+@njit(cache=True, fastmath=False, error_model="numpy")
+def _motion_products(velocity, momentum, force, previous, free_start, free_stop):
+    """v . (f - f_old) and v . M v over the free rows."""
+    work = 0.0
+    norm = 0.0
+    for c in range(3):
+        for j in range(free_start, free_stop):
+            v = velocity[c, j - free_start]
+            m = momentum[c, j - free_start]
+            f = force[c, j]
+            o = previous[c, j - free_start]
+            for i in range(v.size):
+                work += v[i] * (f[i] - o[i])
+                norm += v[i] * m[i]
+    return work, norm
+
+
+def relax(
+    sheet: SheetModel,
+    scheme: Scheme,
+    ramp: Ramp,
+    rule: StoppingRule,
+    start: np.ndarray | None = None,
+) -> RelaxationResult:
+    """Push the top ring of a sheet down and relax the sheet to equilibrium.
+
+    Each increment of the ring's motion is spread over the height, so that the sheet does not lag
+    behind at the moving ring.
+
+    Parameters
+    ----------
+    sheet : SheetModel
+    scheme : Scheme
+    ramp : Ramp
+    rule : StoppingRule
+    start : ndarray, shape (3, rows, columns), optional
+        Control points to start from, at rest, m; the stress-free shape by default.
+
+    Returns
+    -------
+    RelaxationResult
+        Never raises for a sheet that fails to converge: the status says so.
+    """
+    points = (sheet.reference if start is None else start).copy()
+    rows = points.shape[1]
+    free = (RING_ROWS, rows - RING_ROWS)
+    share = np.clip(points[2].mean(axis=1) / (sheet.patch.size_along * (rows - 2)), 0.0, 1.0)
+    share[:RING_ROWS], share[-RING_ROWS:] = 0.0, 1.0
+    force = np.empty_like(points)
+    momentum = np.zeros((3, free[1] - free[0], points.shape[2]))
+    previous = np.zeros_like(momentum)
+    velocity = np.zeros_like(momentum)
+    recorder = _Recorder(ramp)
+    status, step = "not_converged", 0
+    last_step = ramp.steps + rule.relaxation_steps_max
+    while True:
+        energies = sheet.force(points, force)
+        work_rate, momentum_norm = _motion_products(velocity, momentum, force, previous, *free)
+        if step % rule.check_interval == 0 or step == last_step:
+            entry = recorder.record(step, force, energies, 0.5 * momentum_norm)
+            if not np.isfinite(entry.strain_energy + entry.kinetic_energy):
+                status = "diverged"
+                break
+            if step >= ramp.steps and entry.settled(rule):
+                status = "converged"
+                break
+        if step == last_step:
+            if entry.kinetic_energy_ratio > _UNSTABLE:
+                status = "diverged"
+            break
+        damping = scheme.ramp_damping if step < ramp.steps else scheme.relaxation_damping
+        _advance(momentum, force, previous, *free, damping.coefficient(work_rate, momentum_norm))
+        velocity = scheme.mass.velocity(momentum)
+        step += 1
+        lowering = ramp.shortening_at(step) - ramp.shortening_at(step - 1)
+        _move(points, velocity, share, lowering, *free)
+    return recorder.result(status, step, points, rule)
+
+
+def _kinetic_words(last: _Entry, rule: StoppingRule) -> str:
+    if np.isinf(rule.kinetic_energy_tolerance):
+        return ""
+    return (
+        f" and kinetic energy ratio {last.kinetic_energy_ratio:.1e} (wanted "
+        f"{rule.kinetic_energy_tolerance:.1e})"
+    )
+
+
+@dataclass(frozen=True)
+class _Entry:
+    residual: float
+    kinetic_energy: float
+    strain_energy: float
+
+    @property
+    def kinetic_energy_ratio(self) -> float:
+        return self.kinetic_energy / self.strain_energy if self.strain_energy != 0 else 0.0
+
+    def settled(self, rule: StoppingRule) -> bool:
+        return (
+            self.residual <= rule.residual_tolerance
+            and self.kinetic_energy_ratio <= rule.kinetic_energy_tolerance
+        )
+
+
+class _Recorder:
+    def __init__(self, ramp: Ramp):
+        self._ramp = ramp
+        self._rows: list[tuple] = []
+        self._last: _Entry | None = None
+
+    def record(self, step, force, energies, kinetic) -> _Entry:
+        free = force[:, RING_ROWS:-RING_ROWS]
+        rings = np.sqrt(np.sum(force[:, :RING_ROWS] ** 2) + np.sum(force[:, -RING_ROWS:] ** 2))
+        residual = np.sqrt(np.sum(free**2)) / rings if rings > 0 else 0.0
+        reaction = -float(np.sum(force[2, -RING_ROWS:]))
+        self._rows.append(
+            (step, -self._ramp.shortening_at(step), reaction, *energies, kinetic, residual)
+        )
+        self._last = _Entry(float(residual), float(kinetic), float(energies.sum()))
+        return self._last
+
+    def _energy_words(self) -> str:
+        ratio = self._last.kinetic_energy_ratio
+        if not np.isfinite(ratio):
+            return "the energy was not finite"
+        return f"the kinetic energy was {ratio:.1g} of the strain energy"
+
+    def result(self, status, step, points, rule) -> RelaxationResult:
+        last = self._last
+        table = np.array(self._rows).T
+        messages = {
+            "converged": f"relative residual {last.residual:.1e} after {step} steps",
+            "not_converged": (
+                f"relative residual {last.residual:.1e} (wanted {rule.residual_tolerance:.1e})"
+                f"{_kinetic_words(last, rule)} when the step limit of {step} was reached"
+            ),
+            "diverged": (
+                f"the stepping was unstable: {self._energy_words()} at step {step}; use a smaller "
+                "imperfection or more ramp steps"
+            ),
+        }
+        height = points[2, -RING_ROWS:].mean() + self._ramp.shortening_at(step)
+        history = History(table[0].astype(np.int64), height + table[1], *table[2:])
+        return RelaxationResult(
+            status,
+            messages[status],
+            points,
+            last.residual,
+            last.kinetic_energy_ratio,
+            step,
+            history,
+        )

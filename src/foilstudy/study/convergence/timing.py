@@ -1,0 +1,42 @@
+"""Time of a pseudo-time step against element size."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+
+from foilstudy.pipeline.scheme import crumpling_scheme
+from foilstudy.solve.relaxation import Ramp, StoppingRule, relax
+from foilstudy.study.convergence.crumpling import imperfect
+from foilstudy.study.convergence.plan import HEIGHT_MM, SIZES_MM, THICKNESSES_UM, Case
+
+_STEPS, _REPEATS = 100, 7
+
+
+def run_timing() -> list[dict]:
+    """Seconds per step of a ramp, the least of several, as a busy machine only adds."""
+    return [
+        {"thickness_um": thickness, "size_mm": size} | _timed(thickness, size)
+        for thickness in THICKNESSES_UM
+        for size in SIZES_MM
+    ]
+
+
+def _timed(thickness_um: int, size_mm: float) -> dict:
+    crumple = imperfect(Case("corner", thickness_um, HEIGHT_MM, size_mm, 0))
+    sheet = crumple.sheet(crumple.reference)
+    scheme = crumpling_scheme(sheet)
+    foil, patch = crumple.foil, crumple.patch
+    # as far as the sheet buckles, lest numbers too small for normal floats slow the first steps
+    ramp = Ramp(0.1 * (foil.reference_height - foil.gap_height), _STEPS)
+    rule = StoppingRule(np.inf, np.inf, 0, check_interval=_STEPS)
+    seconds = []
+    for _ in range(_REPEATS + 1):  # the first one compiles
+        clock = time.process_time()
+        relax(sheet, scheme, ramp, rule)
+        seconds.append((time.process_time() - clock) / _STEPS)
+    return {
+        "elements": patch.elements_around * patch.elements_along,
+        "seconds_per_step": min(seconds[1:]),
+    }

@@ -1,0 +1,86 @@
+"""Reading back what the jobs of the dynamics study have written."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from foilstudy.base.files import read_json
+from foilstudy.study.dynamics import plan
+
+METHODS = {
+    "guyan": "Guyan",
+    "craig_bampton": "Craig-Bampton",
+    "hintz_herting": "Hintz-Herting",
+    "rational_krylov": "rational Krylov",
+}
+
+
+@dataclass(frozen=True)
+class Row:
+    """One reduction of one model.
+
+    Attributes
+    ----------
+    method : str
+        Key of `METHODS`.
+    order : float
+        Cut-off (Hz), or tolerance of the Krylov reduction.
+    size : int
+        Coordinates of the reduced model.
+    seconds, peak_memory_mb : float
+        Processor time, and memory of the job so far.
+    estimate : float
+        Own estimate of the largest relative error.
+    errors : ndarray, shape (3 definitions, frequencies)
+        True relative errors, the worse of axial and radial.
+    """
+
+    method: str
+    order: float
+    size: int
+    seconds: float
+    peak_memory_mb: float
+    estimate: float
+    valid_to_hz: float
+    errors: np.ndarray
+
+    @property
+    def error(self) -> float:
+        """Largest error of all definitions and frequencies."""
+        return float(self.errors.max())
+
+
+@dataclass(frozen=True)
+class Study:
+    """All records.
+
+    Attributes
+    ----------
+    charts : dict of Model to dict
+        See `measure.chart`.
+    checks : dict of Model to dict
+        See `measure.check`.
+    """
+
+    charts: dict[plan.Model, dict]
+    checks: dict[plan.Model, dict]
+
+    @classmethod
+    def read(cls, folder: Path) -> Study:
+        """Read what the jobs have written."""
+        return cls(
+            {m: read_json(folder / f"charts/{m.name}.json") for m in plan.CHARTED},
+            {m: read_json(folder / f"checks/{m.name}.json") for m in plan.CHECKED},
+        )
+
+    def rows(self, model: plan.Model, method: str | None = None) -> list[Row]:
+        """Reductions of a model that succeeded, all or of one method, by rising cost."""
+        rows = [
+            Row(**(row | {"errors": np.array([list(e) for e in row["errors"]], float)}))
+            for row in self.charts[model]["rows"]
+            if "failed" not in row and method in (None, row["method"])
+        ]
+        return sorted(rows, key=lambda row: row.seconds)

@@ -1,0 +1,117 @@
+"""Error against cost of every element."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from foilstudy.plot.style import GREY, PAGE_WIDTH, line_style, marker, new_figure, styled
+from foilstudy.study.elements.bending import SLENDERNESS
+from foilstudy.study.elements.crumpling import FINE_SIZES, PUBLISHED_2MM5, PUBLISHED_5MM
+from foilstudy.study.elements.frozen import THICKNESSES
+from foilstudy.study.elements.scene import COARSE, micrometres
+from foilstudy.study.elements.summary import Study
+from foilstudy.study.elements.variants import DEFAULT, VARIANTS
+
+_HEIGHT = 12.5
+_COLOURS = {
+    "one point": "#c44e52",
+    "Gauss": "#dd8452",
+    "patch-wise": "#937860",
+    "CAS": "#55a868",
+    "staggered": "#4c72b0",
+    "corner": "#222222",
+}
+_LEGEND_COLUMNS = 4
+
+
+@styled
+def draw(study: Study):
+    """Six panels: error against t/h for both kinds of task, then error against cost.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    figure = new_figure(PAGE_WIDTH, _HEIGHT)
+    axes = figure.subplots(3, 2)
+    _against_slenderness(axes[0, 0], study, _ring, SLENDERNESS)
+    axes[0, 0].set_title("bending a coarse ring (R = 2.5 h), against theory")
+    slenderness = tuple(t / COARSE for t in THICKNESSES)
+    _against_slenderness(axes[0, 1], study, _axial, slenderness)
+    axes[0, 1].set_title("axial stiffness of a given crumple, 5 mm against 1.25 mm")
+    costs = [(axes[1, 0], "axial_500um", "stiffness of a given crumple, 500 µm")]
+    costs.append((axes[1, 1], "axial_50um", "stiffness of a given crumple, 50 µm"))
+    costs.append((axes[2, 0], "buckled", "energy of a post-buckled panel, 500 µm"))
+    for ax, key, title in costs:
+        _against_cost(ax, study, key)
+        ax.set_title(title)
+    _crumple_energy(axes[2, 1], study)
+    handles, labels = axes[0, 0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=_LEGEND_COLUMNS, fontsize=8.5)
+    return figure
+
+
+def _look(name: str) -> dict:
+    """Colour by family; line and marker by the place within it."""
+    variant = VARIANTS[name]
+    family = [key for key, other in VARIANTS.items() if other.family == variant.family]
+    place = family.index(name)
+    return {
+        "color": _COLOURS[variant.family],
+        "marker": marker(place),
+        "ls": line_style(place),
+        "ms": 8 if name == DEFAULT else 5,
+        "lw": 2.6 if name == DEFAULT else 1.2,
+    }
+
+
+def _ring(row: dict, index: int) -> float:
+    return row[f"ring_{SLENDERNESS[index]:g}"]
+
+
+def _axial(row: dict, index: int) -> float:
+    return row[f"axial_{micrometres(THICKNESSES[index])}um"]
+
+
+def _against_slenderness(ax, study: Study, value, slenderness) -> None:
+    for name, variant in VARIANTS.items():
+        row = study.row(name)
+        errors = [abs(value(row, k)) for k in range(len(slenderness))]
+        ax.plot(slenderness, errors, label=variant.label, **_look(name))
+    ax.set_xscale("log")
+    ax.set_yscale("log")
+    ax.set_xticks(slenderness, [f"{s:g}" for s in slenderness])
+    ax.minorticks_off()
+    ax.set_xlabel("thickness / element size")
+    ax.set_ylabel("relative error")
+
+
+def _against_cost(ax, study: Study, key: str) -> None:
+    for name in VARIANTS:
+        row = study.row(name)
+        ax.plot(row["cost"], abs(row[key]), **_look(name))
+    ax.set_xscale("log")
+    ax.set_yscale("log")
+    ax.set_xlabel("cost of a force evaluation by the general kernel / one point's")
+    ax.set_ylabel("relative error")
+
+
+def _crumple_energy(ax, study: Study) -> None:
+    """Energy of crumples against cost, beside finer meshes and the published values."""
+    for name in VARIANTS:
+        energies = study.crumples[name]["energies"]
+        cost = study.cost["relative"][name]
+        ax.plot([cost] * len(energies), energies, **_look(name) | {"ls": "none"})
+    for energy in PUBLISHED_5MM:
+        ax.axhline(energy, color="#8172b3", lw=1.0, label="published, QEPH 5 mm")
+    ax.axhline(PUBLISHED_2MM5, color="#8172b3", lw=1.0, ls="--", label="published, QEPH 2.5 mm")
+    for size, style in zip(FINE_SIZES, ("--", "-"), strict=True):
+        energy = np.nanmean(study.fine[size]["energies"])
+        ax.axhline(energy, color=GREY, lw=1.6, ls=style, label=f"default, {1e3 * size:g} mm")
+    handles, labels = ax.get_legend_handles_labels()
+    unique = dict(zip(labels, handles, strict=True))
+    ax.legend(unique.values(), unique.keys(), fontsize=8, loc="upper left")
+    ax.set_xscale("log")
+    ax.set_xlabel("cost of a force evaluation by the general kernel / one point's")
+    ax.set_ylabel("strain energy, J")
+    ax.set_title("crumples of 500 µm, h_ref = 170 mm, 5 mm elements")

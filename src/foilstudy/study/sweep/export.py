@@ -1,0 +1,132 @@
+"""From the record of a realisation to the files of an export."""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Iterable
+from pathlib import Path
+
+from foilstudy.base.files import written_whole
+from foilstudy.base.provenance import provenance
+from foilstudy.base.record import MACHINE_FAULTS, read_record
+from foilstudy.config import ResponseTask
+from foilstudy.config.scene import foil_of
+from foilstudy.export.contents import Contents
+from foilstudy.export.registry import FORMATS, check_format, write
+from foilstudy.measure.dynamics import frequency_grid
+from foilstudy.pipeline.crumpled import Crumple
+from foilstudy.pipeline.structures import stress_free_structure
+from foilstudy.pipeline.vibration import damping_of, reduced
+
+README = "README.txt"
+
+
+def contents_of(task: ResponseTask, crumple_path: Path, refinements: int = 0) -> Contents:
+    """Shape, reduced model and band of one crumple.
+
+    Parameters
+    ----------
+    task : ResponseTask
+        Foil, damping, reduction and band.
+    crumple_path : Path
+        Record of `foilstudy.crumple`.
+    refinements : int
+        How often the elements of the same shape are halved before.
+
+    Raises
+    ------
+    ValueError
+        If the crumple is no equilibrium, or if the reduced model is valid nowhere in the band.
+    SolveError
+        If a factorisation or the reduction fails.
+    """
+    if not crumple_path.is_file():
+        raise ValueError(
+            f"{crumple_path}: there is no such record; run the study, or check the path."
+        )
+    if refinements < 0:
+        raise ValueError(f"refinements is {refinements}; elements can be halved, not joined.")
+    values, attributes = read_record(crumple_path)
+    status = attributes.get("status", "missing")
+    if status != "converged":
+        raise ValueError(
+            f"{crumple_path}: its status is {status} ({attributes.get('message', 'no message')}); "
+            "only an equilibrium is exported, so relax it further or take another seed."
+        )
+    crumple = Crumple.recorded(foil_of(task), values, attributes)
+    for _ in range(refinements):
+        crumple = crumple.refined()
+    model = reduced(task.dynamics, stress_free_structure(crumple))
+    options = task.dynamics
+    grid = frequency_grid(options.shown_min_hz, options.shown_max_hz, options.frequencies)
+    grid = grid[~(grid > model.valid_to_hz)]  # a model without an estimate is valid as it stands
+    if grid.size < 2:
+        raise ValueError(
+            f"{crumple_path}: the {model.method} model is wrong by about "
+            f"{model.error_estimate:.2g} already at {options.shown_min_hz:g} Hz; set "
+            "dynamics.reduction: rational_krylov, or raise dynamics.tolerance."
+        )
+    origin = {
+        "thickness_um": f"{task.thickness_um:g}",
+        "reference_height_mm": f"{task.reference_height_mm:g}",
+        "seed": f"{task.seed}",
+        "refinements": f"{refinements}",
+        "crumple_git_commit": str(attributes["git_commit"]),
+    }
+    return Contents(
+        crumple, model, damping_of(options), grid, origin | provenance(), options.mode_shapes
+    )
+
+
+def export_realisation(
+    task: ResponseTask, crumple_path: Path, folder: Path, formats: Iterable[str]
+) -> None:
+    """Write the formats into a folder, and beside them a text that says what each is.
+
+    A realisation or a format that cannot be exported leaves its reason in that text, so that a
+    study goes on.
+
+    Raises
+    ------
+    ValueError
+        If a format is unknown.
+    """
+    formats = list(formats)
+    for name in formats:
+        check_format(name)
+    lines = [
+        f"Realisation {task.thickness_um:g} um, {task.reference_height_mm:g} mm, seed {task.seed}.",
+        "SI units; how to open these files: docs/exchange.md.",
+        "",
+    ]
+    try:
+        contents = contents_of(task, crumple_path)
+    except MACHINE_FAULTS:
+        raise
+    except Exception as error:  # a study must survive any one realisation
+        lines.append(f"Not exported: {_reason(error)}")
+    else:
+        lines += [_exported(contents, name, folder) for name in formats]
+    with written_whole(folder / README) as partial:
+        partial.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    there = sum((folder / FORMATS[name].filename).is_file() for name in formats)
+    print("\n".join(lines), f"{there} of {len(formats)} files written", sep="\n")
+
+
+def _exported(contents: Contents, name: str, folder: Path) -> str:
+    """Write one format; the line that says what it is, or why it is not there."""
+    kind = FORMATS[name]
+    try:
+        write(contents, name, folder / kind.filename)
+    except MACHINE_FAULTS:
+        raise
+    except Exception as error:  # the other formats may well be possible
+        return f"{kind.filename}: not written: {_reason(error)}"
+    return f"{kind.filename}: {kind.content}"
+
+
+def _reason(error: Exception) -> str:
+    if isinstance(error, ValueError):
+        return str(error)
+    traceback.print_exc()
+    return f"{type(error).__name__}: {error}"
