@@ -2,22 +2,29 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import os
 
-import numpy as np
-import pytest
+# As in a job of a study, and before any library reads them: the order of sums, and with it the last
+# bits, depends on the number of threads.
+for variable in ("OMP", "MKL", "OPENBLAS", "NUMBA"):
+    os.environ[f"{variable}_NUM_THREADS"] = "1"
 
-from foilstudy.imperfection import imperfect_cylinder
-from foilstudy.patch import Patch, cylinder_control_points
-from foilstudy.realisation.scheme import RAMP_DAMPING, RELAXATION_DAMPING
-from foilstudy.relaxation import Ramp, RelaxationResult, Scheme, StoppingRule, relax
-from foilstudy.relaxation.damping import AdaptiveViscousDamping
-from foilstudy.relaxation.spectral_mass import SpectralMass
-from foilstudy.sheet import Foil, Imperfection, Material
-from foilstudy.shell.elements import DEFAULT_ELEMENT
-from foilstudy.shell.sheet_model import SheetModel
-from foilstudy.shell.tangent import mass_matrix, stiffness_matrix
-from foilstudy.stiffness import InterfaceSystem, Rings, condense
+from dataclasses import dataclass  # noqa: E402
+
+import numpy as np  # noqa: E402
+import pytest  # noqa: E402
+
+from foilstudy.measure.stiffness import InterfaceSystem, Rings, condense  # noqa: E402
+from foilstudy.model.foil import Foil, Imperfection, Material  # noqa: E402
+from foilstudy.model.imperfection import imperfect_cylinder  # noqa: E402
+from foilstudy.model.patch import Patch, cylinder_control_points  # noqa: E402
+from foilstudy.model.shell.elements import DEFAULT_ELEMENT  # noqa: E402
+from foilstudy.model.shell.sheet_model import SheetModel  # noqa: E402
+from foilstudy.model.shell.tangent import mass_matrix, stiffness_matrix  # noqa: E402
+from foilstudy.pipeline.scheme import RAMP_DAMPING, RELAXATION_DAMPING  # noqa: E402
+from foilstudy.solve.relaxation import Ramp, RelaxationResult, Scheme, StoppingRule, relax  # noqa: E402
+from foilstudy.solve.relaxation.damping import AdaptiveViscousDamping  # noqa: E402
+from foilstudy.solve.relaxation.spectral_mass import SpectralMass  # noqa: E402
 
 DIAMETER, REFERENCE_HEIGHT, GAP_HEIGHT = 0.2, 0.17, 0.13
 THICKNESS = 500e-6

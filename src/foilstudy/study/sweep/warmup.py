@@ -1,0 +1,46 @@
+"""Compile every numba kernel once, so that parallel jobs only read the cache."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+
+from foilstudy.base.outcome import USABLE
+from foilstudy.config import load_config
+
+
+def compile_kernels() -> None:
+    """Run one very small realisation with every element from end to end.
+
+    Raises
+    ------
+    RuntimeError
+        If one of them fails.
+    """
+    from foilstudy.base.record import read_record
+    from foilstudy.model.shell.elements import ELEMENTS
+    from foilstudy.study.sweep.crumple import crumple
+    from foilstudy.study.sweep.respond import respond
+
+    for element in ELEMENTS:
+        study = load_config(_smallest(element))
+        (cell,) = study.cells()
+        with tempfile.TemporaryDirectory() as folder:
+            paths = Path(folder) / "crumple.nc", Path(folder) / "response.nc"
+            crumple(study.crumple_task(cell), paths[0])
+            respond(study.response_task(cell), *paths)
+            _, attributes = read_record(paths[1])
+        if attributes["status"] not in USABLE:
+            raise RuntimeError(
+                f"the kernels of {element} do not work on this machine: {attributes['message']}"
+            )
+
+
+def _smallest(element: str) -> dict:
+    return {
+        "study": {"name": "warmup"},
+        "sweep": {"thickness_um": [500], "reference_height_mm": [150], "realisations": 1},
+        "mesh": {"element_size_mm": 15, "element": element},
+        "relaxation": {"ramp_steps": 200},
+        "dynamics": {"shown_max_hz": 50},
+    }
