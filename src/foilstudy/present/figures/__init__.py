@@ -1,4 +1,4 @@
-"""The figures of a study: a registry, and functions that draw and save them.
+"""The figures of a study: a registry, and functions that draw them.
 
 Importing this package does not import matplotlib, so that a workflow can read `FIGURES` cheaply.
 """
@@ -9,7 +9,6 @@ from foilstudy.present.figures.registry import (
     FigureSpec,
     draw_figure,
     draw_figures,
-    save,
 )
 
-__all__ = ["FIGURES", "FigureInputs", "FigureSpec", "draw_figure", "draw_figures", "save"]
+__all__ = ["FIGURES", "FigureInputs", "FigureSpec", "draw_figure", "draw_figures"]

@@ -1,4 +1,4 @@
-"""Which figures a study has, what each needs, and how they are saved."""
+"""Which figures a study has, and what each needs."""
 
 from __future__ import annotations
 
@@ -7,9 +7,7 @@ from dataclasses import dataclass, field
 from importlib import import_module
 from pathlib import Path
 
-from foilstudy.base.files import written_whole
-
-PNG_DPI = 150
+from foilstudy.plot.save import save
 
 
 @dataclass(frozen=True)
@@ -206,33 +204,6 @@ FIGURES: dict[str, FigureSpec] = {
     ),
 }
 """Figures of the study by id, in the order in which a report shows them."""
-
-
-def save(figure, stem) -> tuple[Path, Path]:
-    """Write ``<stem>.png`` and ``<stem>.svg``; the same figure always gives the same bytes.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-    stem : path without suffix; its folder is made if missing
-
-    Returns
-    -------
-    png, svg : Path
-    """
-    from foilstudy.plot.style import styled
-
-    stem = Path(stem)
-    return tuple(
-        _save_one(styled(figure.savefig), stem.with_name(f"{stem.name}.{suffix}"), metadata)
-        for suffix, metadata in (("png", {"Software": None}), ("svg", {"Date": None}))
-    )
-
-
-def _save_one(savefig, path: Path, metadata: dict) -> Path:
-    with written_whole(path) as partial:
-        savefig(partial, format=path.suffix[1:], dpi=PNG_DPI, metadata=metadata)
-    return path
 
 
 @dataclass(frozen=True)

@@ -14,8 +14,8 @@ import yaml
 
 from foilstudy.base.files import written_whole
 from foilstudy.base.reference import published
+from foilstudy.plot.save import PNG_DPI
 from foilstudy.present.figures import FIGURES
-from foilstudy.present.figures.registry import PNG_DPI
 from foilstudy.present.report import (
     equilibrium,
     exponents,
