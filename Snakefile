@@ -25,10 +25,7 @@ include: "workflow/rules/common.smk"
 include: "workflow/rules/realisations.smk"
 include: "workflow/rules/results.smk"
 include: "workflow/rules/export.smk"
-include: "workflow/rules/verify.smk"
-include: "workflow/rules/elements.smk"
-include: "workflow/rules/convergence.smk"
-include: "workflow/rules/dynamics.smk"
+include: "workflow/rules/studies.smk"
 
 
 localrules:

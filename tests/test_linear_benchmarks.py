@@ -104,10 +104,10 @@ def test_corner_element_regains_its_order_as_the_layer_at_free_edges_gets_resolv
 def test_free_cylinder_has_six_modes_at_zero_frequency():
     patch = frequencies.Patch(37, 10, 2 * np.pi * 0.1 / 37, 0.017)
     points = frequencies.cylinder_control_points(patch, 0.2)
-    sheet = CORNER.sheet(patch, points, frequencies.FOIL, 500e-6)
-    first = theory_cylinder.frequencies(
-        Cylinder(0.1, 0.17, 500e-6, frequencies.FOIL), theory_cylinder.FREE, 2
-    )[0]
+    sheet = CORNER.sheet(patch, points, FEP, 500e-6)
+    first = theory_cylinder.frequencies(Cylinder(0.1, 0.17, 500e-6, FEP), theory_cylinder.FREE, 2)[
+        0
+    ]
     modes = frequencies.natural_modes(sheet, constraints(patch, {}), 1.2 * first)
     shares = np.abs(modes.eigenvalues) / (2 * np.pi * first) ** 2
     # and two of the lowest elastic order, as cosine and as sine
@@ -119,7 +119,7 @@ def test_free_cylinder_has_six_modes_at_zero_frequency():
 def test_a_cylinder_between_diaphragms_slides_along_its_axis_without_waves_around():
     patch = frequencies.Patch(37, 10, 2 * np.pi * 0.1 / 37, 0.017)
     points = frequencies.cylinder_control_points(patch, 0.2)
-    sheet = CORNER.sheet(patch, points, frequencies.FOIL, 500e-6)
+    sheet = CORNER.sheet(patch, points, FEP, 500e-6)
     held = constraints(patch, {edge: diaphragm(0, 1) for edge in ("bottom", "top")})
     modes = frequencies.natural_modes(sheet, held, 40.0)
     orders = frequencies.circumferential_orders(patch, points, modes.shapes)

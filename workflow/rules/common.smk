@@ -10,6 +10,7 @@ from pathlib import Path
 
 from foilstudy.config import ConfigError, load_config
 from foilstudy.present.figures import FIGURES
+from foilstudy.study.registry import refuse_reserved_name
 from snakemake.logging import logger
 
 
@@ -28,6 +29,7 @@ def read_study():
 
 try:
     STUDY = read_study()
+    refuse_reserved_name(STUDY.study.name)
 except ConfigError as problem:
     refuse(problem)
 
@@ -35,6 +37,7 @@ RESULTS = f"results/{STUDY.study.name}"
 LOGS = f"{RESULTS}/logs"
 BENCHMARKS = f"{RESULTS}/benchmarks"
 CELLS = STUDY.cells()
+RESULTS_LOCKS = []
 # Results of another release of the package count as outdated, like those of another task.
 VERSION = version("foilstudy")
 # The interpreter that runs Snakemake, whether or not its environment is activated. Plain commands
@@ -76,8 +79,8 @@ def refine_task(wildcards):
     return STUDY.refine_task(STUDY.cell(*wildcards)).model_dump_json()
 
 
-def refuse_results(reason):
-    refuse(f"{RESULTS}: cannot be written ({reason}); change that, or run from another folder.")
+def refuse_results(reason, results=RESULTS):
+    refuse(f"{results}: cannot be written ({reason}); change that, or run from another folder.")
 
 
 def check_results():
@@ -92,24 +95,26 @@ def check_results():
 
 
 def claim_results():
-    """Keep other runs of the same study out until this one ends.
+    """Keep other runs out of every folder of results that this one writes, until it ends.
 
-    The kernel drops this lock with the process that holds it, however that ends. Snakemake's own
+    The kernel drops such a lock with the process that holds it, however that ends. Snakemake's own
     lock files (off in profiles/default) would outlive a killed run and block the next.
     """
-    global results_lock
-    try:
-        Path(RESULTS).mkdir(parents=True, exist_ok=True)
-        results_lock = open(f"{RESULTS}/.lock", "w")
-    except OSError as problem:
-        refuse_results(problem.strerror)
-    try:
-        fcntl.flock(results_lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        refuse(
-            f"{RESULTS}: another run is writing this study; wait until it ends, or give this one "
-            "another study.name."
-        )
+    written = (Path(file).parts for job in workflow.dag.needrun_jobs() for file in job.output)
+    for folder in sorted({"/".join(parts[:2]) for parts in written if parts[0] == "results"}):
+        try:
+            Path(folder).mkdir(parents=True, exist_ok=True)
+            RESULTS_LOCKS.append(open(f"{folder}/.lock", "w"))
+        except OSError as problem:
+            refuse_results(problem.strerror, folder)
+        try:
+            fcntl.flock(RESULTS_LOCKS[-1], fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except (BlockingIOError, PermissionError):
+            remedy = ", or give this one another study.name" if folder == RESULTS else ""
+            refuse(f"{folder}: another run is writing this study; wait until it ends{remedy}.")
+        except OSError as problem:
+            # a file system without locks
+            logger.warning(f"{folder}: not locked ({problem.strerror}); start no second run on it.")
 
 
 def compile_kernels():

@@ -32,7 +32,7 @@ def written_whole(path: str | Path) -> Iterator[Path]:
 
 
 def write_json(record: dict | list[dict], path: str | Path) -> None:
-    """Write a record as JSON, numbers that are not finite as null."""
+    """Write a record as JSON; arrays become lists, numbers that are not finite null."""
     with written_whole(path) as partial:
         partial.write_text(json.dumps(_plain(record), indent=1, allow_nan=False) + "\n")
 
@@ -43,6 +43,8 @@ def read_json(path: str | Path) -> dict | list[dict]:
 
 
 def _plain(value):
+    if isinstance(value, np.ndarray | np.generic):
+        value = value.tolist()
     if isinstance(value, dict):
         return {key: _plain(item) for key, item in value.items()}
     if isinstance(value, list | tuple):

@@ -10,8 +10,9 @@ from foilstudy.model.shell.sheet_model import SheetModel
 from foilstudy.model.shell.tangent import mass_matrix, stiffness_matrix
 from foilstudy.solve.paths.path import follow_load
 from foilstudy.study.elements.variants import Variant
+from foilstudy.study.foils import FEP
 from foilstudy.study.verification.candidates import Candidate
-from foilstudy.study.verification.frequencies import FOIL, circumferential_orders
+from foilstudy.study.verification.frequencies import circumferential_orders
 from foilstudy.study.verification.nonlinear import ROLL_UP
 from foilstudy.study.verification.theory_cylinder import FREE, Cylinder, frequencies
 
@@ -40,9 +41,9 @@ def ring_error(variant: Variant, slenderness: float) -> float:
     thickness = slenderness * size
     patch = Patch(_AROUND, _ALONG, size, _LENGTH / _ALONG)
     points = cylinder_control_points(patch, 2 * _RADIUS)
-    sheet = SheetModel(patch, points, FOIL, thickness, variant.element)
-    cylinder = Cylinder(_RADIUS, _LENGTH, thickness, FOIL)
-    mass = mass_matrix(patch, FOIL.density * thickness * sheet.element_areas())
+    sheet = SheetModel(patch, points, FEP, thickness, variant.element)
+    cylinder = Cylinder(_RADIUS, _LENGTH, thickness, FEP)
+    mass = mass_matrix(patch, FEP.density * thickness * sheet.element_areas())
     eigenvalues, shapes = eigh(stiffness_matrix(sheet).toarray(), mass.toarray())
     orders = circumferential_orders(patch, points, shapes)
     errors = []

@@ -21,7 +21,7 @@ from foilstudy.model.supports.loads import DeadLoad
 from foilstudy.solve.equilibrium.newton import NewtonOptions, NewtonResult, minimise
 from foilstudy.solve.paths.loaded_sheet import LoadedSheet
 from foilstudy.study.elements.variants import DEFAULT, VARIANTS, Variant
-from foilstudy.study.verification.frequencies import FOIL
+from foilstudy.study.foils import FEP
 
 THICKNESS = 500e-6
 """m."""
@@ -120,7 +120,7 @@ def _panel(variant: Variant, level: int) -> tuple[SheetModel, Constraints]:
         "left": symmetric(1),
         "right": symmetric(0),
     }
-    sheet = SheetModel(patch, points, FOIL, THICKNESS, variant.element)
+    sheet = SheetModel(patch, points, FEP, THICKNESS, variant.element)
     return sheet, constraints(patch, edges)
 
 

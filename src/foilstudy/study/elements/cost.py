@@ -12,7 +12,7 @@ from foilstudy.model.shell.elements import Element
 from foilstudy.model.shell.sheet_model import SheetModel
 from foilstudy.study.elements.scene import COARSE, DIAMETER, REFERENCE_HEIGHT
 from foilstudy.study.elements.variants import BASELINE, VARIANTS
-from foilstudy.study.verification.frequencies import FOIL
+from foilstudy.study.foils import FEP
 
 _THICKNESS = 500e-6
 _ROUNDS = 15
@@ -58,7 +58,7 @@ def _timed(element: Element):
     """A function that returns the seconds per element of one force evaluation."""
     patch = Patch.for_cylinder(DIAMETER, REFERENCE_HEIGHT, COARSE)
     points = cylinder_control_points(patch, DIAMETER)
-    sheet = SheetModel(patch, points, FOIL, _THICKNESS, element)
+    sheet = SheetModel(patch, points, FEP, _THICKNESS, element)
     force = np.empty_like(points)
     elements = patch.elements_around * patch.elements_along
 

@@ -13,7 +13,7 @@ from foilstudy.model.shell.sheet_model import SheetModel
 from foilstudy.model.shell.tangent import stiffness_matrix
 from foilstudy.study.elements.scene import COARSE, DIAMETER, REFERENCE_HEIGHT, crumple
 from foilstudy.study.elements.variants import DEFAULT, VARIANTS, Variant
-from foilstudy.study.verification.frequencies import FOIL
+from foilstudy.study.foils import FEP
 
 THICKNESSES = (50e-6, 250e-6, 500e-6, 1000e-6)
 """m; on 5 mm elements t/h = 0.01 to 0.2."""
@@ -68,7 +68,7 @@ def stiffness_of(
     variant: Variant, patch: Patch, points: np.ndarray, thickness: float
 ) -> np.ndarray:
     """Axial and radial stiffness of a shape taken as stress-free, N/m."""
-    sheet = SheetModel(patch, points, FOIL, thickness, variant.element)
+    sheet = SheetModel(patch, points, FEP, thickness, variant.element)
     system = InterfaceSystem.split(stiffness_matrix(sheet), Rings.of(patch, points))
     return fixed_stiffness(condense(system).stiffness)
 

@@ -11,7 +11,7 @@ from foilstudy.model.shell.elements import Element
 from foilstudy.model.shell.sheet_model import SheetModel
 from foilstudy.pipeline.scheme import crumpling_scheme
 from foilstudy.solve.relaxation import Ramp, RelaxationResult, StoppingRule, relax
-from foilstudy.study.verification.frequencies import FOIL
+from foilstudy.study.foils import FEP
 
 DIAMETER, REFERENCE_HEIGHT, GAP_HEIGHT = 0.2, 0.17, 0.13
 COARSE = 5e-3
@@ -45,14 +45,14 @@ def crumple(
     steps_max : int
         After the ramp of 2000 steps.
     """
-    foil = Foil(DIAMETER, REFERENCE_HEIGHT, GAP_HEIGHT, thickness, FOIL)
+    foil = Foil(DIAMETER, REFERENCE_HEIGHT, GAP_HEIGHT, thickness, FEP)
     patch = Patch.for_cylinder(DIAMETER, REFERENCE_HEIGHT, size)
     stream = (seed, 1000 * micrometres(thickness), round(REFERENCE_HEIGHT * 1e6))
     imperfection = Imperfection("gaussian", _AMPLITUDE, 0.0, stream)
     reference = imperfect_cylinder(
         patch, cylinder_control_points(patch, DIAMETER), foil, imperfection
     )
-    sheet = SheetModel(patch, reference, FOIL, thickness, element)
+    sheet = SheetModel(patch, reference, FEP, thickness, element)
     ramp = Ramp(REFERENCE_HEIGHT - GAP_HEIGHT, _RAMP_STEPS)
     rule = StoppingRule(_RESIDUAL, np.inf, steps_max)
     return sheet, relax(sheet, crumpling_scheme(sheet), ramp, rule)

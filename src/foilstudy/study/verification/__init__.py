@@ -1,5 +1,9 @@
-"""The shell held against theory and publications.
+"""The shell held against theory and publications: ``snakemake verify``.
 
 Each benchmark is a function of the element under test that returns a `records.Benchmark`;
-`registry.MODULES` names them all and ``snakemake verify`` runs them.
+`plan.MODULES` names them all.
 """
+
+from foilstudy.study.verification.plan import STUDY
+
+__all__ = ["STUDY"]

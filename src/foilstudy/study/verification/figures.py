@@ -35,6 +35,11 @@ _SMALLEST_ERROR = 1e-6
 """Errors below this are left out of the plot: rounding, not convergence."""
 
 
+def draw_one(benchmarks: Sequence[Benchmark], name: str):
+    """Draw the benchmark of a name with all its elements."""
+    return draw([benchmark for benchmark in benchmarks if benchmark.name == name])
+
+
 @styled
 def draw(benchmarks: Sequence[Benchmark]):
     """Draw one benchmark with several elements.

@@ -23,6 +23,7 @@ from foilstudy.model.supports.edges import (
     constraints,
     diaphragm,
 )
+from foilstudy.study.foils import FEP
 from foilstudy.study.verification import theory_cylinder, theory_plate
 from foilstudy.study.verification.candidates import Candidate
 from foilstudy.study.verification.linear import (
@@ -35,7 +36,6 @@ from foilstudy.study.verification.linear import (
 from foilstudy.study.verification.records import Benchmark, Picture, Quantity
 from foilstudy.study.verification.theory_cylinder import Cylinder
 
-FOIL = Material(650e6, 0.4, 2150.0, 12e6)
 RADIUS, LENGTH = 0.1, 0.17
 ELEMENTS_ALONG = 10 / 37
 """Elements along per element around, on this cylinder nearly square ones."""
@@ -117,7 +117,7 @@ class CylinderCase:
 
     def theory(self, n: int) -> np.ndarray:
         """Exact frequencies of order n, Hz."""
-        cylinder = Cylinder(RADIUS, LENGTH, self.thickness, FOIL)
+        cylinder = Cylinder(RADIUS, LENGTH, self.thickness, FEP)
         conditions = {
             "clamped": theory_cylinder.CLAMPED,
             "diaphragm": theory_cylinder.DIAPHRAGM,
@@ -184,7 +184,7 @@ def _by_order(
     along = round(around * ELEMENTS_ALONG)
     patch = Patch(around, along, 2 * np.pi * RADIUS / around, LENGTH / along)
     points = cylinder_control_points(patch, 2 * RADIUS)
-    sheet = candidate.sheet(patch, points, FOIL, case.thickness)
+    sheet = candidate.sheet(patch, points, FEP, case.thickness)
     held = constraints(patch, {e: _condition(case.edges, patch, points, e) for e in _ENDS})
     highest = max(case.theory(n)[-1] for n in case.orders)
     modes = natural_modes(sheet, held, _SEARCH * highest)

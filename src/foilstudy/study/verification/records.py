@@ -7,14 +7,10 @@ one `Quantity` for every number that theory or a publication gives, and what is 
 
 from __future__ import annotations
 
-import json
-from dataclasses import asdict, dataclass
-from pathlib import Path
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import brentq
-
-from foilstudy.base.files import written_whole
 
 TOLERANCE = 0.01
 """Largest relative error asked of the finest mesh."""
@@ -260,25 +256,19 @@ class Benchmark:
     def _members(self, family: str) -> list[Quantity]:
         return [q for q in self.quantities if q.family == family]
 
-    def write(self, path: str | Path) -> None:
-        """Write as JSON."""
-        with written_whole(path) as partial:
-            partial.write_text(json.dumps(asdict(self), separators=(",", ":")) + "\n")
-
     @classmethod
-    def read(cls, path: str | Path) -> Benchmark:
-        """Read what `write` has written."""
-        data = json.loads(Path(path).read_text())
+    def of(cls, result: dict) -> Benchmark:
+        """From the result of a record."""
         quantities = tuple(
-            Quantity(**{**q, "meshes": tuple(q["meshes"]), "values": tuple(q["values"])})
-            for q in data["quantities"]
+            Quantity(**{**q, "meshes": tuple(map(int, q["meshes"])), "values": tuple(q["values"])})
+            for q in result["quantities"]
         )
-        plot = data["plot"]
+        plot = result["plot"]
         if plot is not None:
             curves = tuple(
                 Curve(**{k: v if k == "label" else tuple(v) for k, v in curve.items()})
                 for curve in plot["curves"]
             )
             plot = Plot(plot["x_label"], plot["y_label"], curves)
-        pictures = tuple(Picture(**picture) for picture in data["pictures"])
-        return cls(data["name"], data["title"], data["element"], quantities, plot, pictures)
+        pictures = tuple(Picture(**picture) for picture in result["pictures"])
+        return cls(result["name"], result["title"], result["element"], quantities, plot, pictures)

@@ -31,8 +31,9 @@ from foilstudy.model.supports.interpolation import as_vector
 from foilstudy.model.supports.loads import edge_load
 from foilstudy.solve.paths.buckling import buckling_modes
 from foilstudy.solve.paths.loaded_sheet import LoadedSheet
+from foilstudy.study.foils import FEP
 from foilstudy.study.verification.candidates import Candidate
-from foilstudy.study.verification.frequencies import FOIL, LENGTH, RADIUS
+from foilstudy.study.verification.frequencies import LENGTH, RADIUS
 from foilstudy.study.verification.records import Benchmark, Picture, Quantity
 from foilstudy.study.verification.theory_cylinder import (
     Cylinder,
@@ -40,7 +41,7 @@ from foilstudy.study.verification.theory_cylinder import (
     classical_buckling_stress,
 )
 
-FOIL_CYLINDER = Cylinder(RADIUS, LENGTH, 500e-6, FOIL)
+FOIL_CYLINDER = Cylinder(RADIUS, LENGTH, 500e-6, FEP)
 _COUNT = 40
 """Lowest modes among which the one of the cell is looked for."""
 _SWELLING = 0.06

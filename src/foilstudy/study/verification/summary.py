@@ -2,38 +2,39 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Iterable, Sequence
-from pathlib import Path
 
 import numpy as np
 
-from foilstudy.base.files import written_whole
+from foilstudy.base.tables import markdown_table
+from foilstudy.study.kernel.files import Records
 from foilstudy.study.verification.records import Benchmark, Quantity
 
-_COLUMNS = (
-    "benchmark", "element", "quantity", "unit", "reference", "source", "elements", "value",
-    "relative_error", "order", "expected_order", "met",
-)  # fmt: skip
+
+def benchmarks_of(records: Records) -> list[Benchmark]:
+    """All benchmarks of a run."""
+    return [Benchmark.of(record.result) for record in records["benchmarks"].values()]
 
 
-def write_csv(benchmarks: Iterable[Benchmark], path: str | Path) -> None:
+def problems(benchmarks: Iterable[Benchmark]) -> list[str]:
+    """What the benchmarks miss, one sentence each."""
+    return [problem for benchmark in benchmarks for problem in benchmark.problems()]
+
+
+def rows(benchmarks: Iterable[Benchmark]) -> list[dict]:
     """One row per quantity, finest mesh; `order` is that of the family where there is one."""
-    with written_whole(path) as partial, partial.open("w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(_COLUMNS)
-        for benchmark in benchmarks:
-            for q in benchmark.quantities:
-                rate = benchmark.rate(q)
-                writer.writerow(
-                    [
-                        benchmark.name, benchmark.element, q.name, q.unit, f"{q.reference:.7g}",
-                        q.source, q.meshes[-1], f"{q.values[-1]:.7g}", f"{q.errors[-1]:.2e}",
-                        f"{rate:.2f}" if np.isfinite(rate) else "",
-                        "" if q.expected_rate is None else f"{q.expected_rate:g}",
-                        not q.problems(),
-                    ]
-                )  # fmt: skip
+    found = []
+    for benchmark in benchmarks:
+        for q in benchmark.quantities:
+            rate = benchmark.rate(q)
+            row = {"benchmark": benchmark.name, "element": benchmark.element, "quantity": q.name}
+            row |= {"unit": q.unit, "reference": f"{q.reference:.7g}", "source": q.source}
+            row |= {"elements": q.meshes[-1], "value": f"{q.values[-1]:.7g}"}
+            row["relative_error"] = f"{q.errors[-1]:.2e}"
+            row["order"] = f"{rate:.2f}" if np.isfinite(rate) else ""
+            row["expected_order"] = q.expected_rate
+            found.append(row | {"met": not q.problems()})
+    return found
 
 
 def table(benchmarks: Iterable[Benchmark]) -> str:
@@ -41,36 +42,27 @@ def table(benchmarks: Iterable[Benchmark]) -> str:
     pairs: dict[str, list[Benchmark]] = {}
     for benchmark in benchmarks:
         pairs.setdefault(benchmark.name, []).append(benchmark)
-    elements = [benchmark.element.replace("_", " ") for benchmark in next(iter(pairs.values()))]
-    heads = [f"{element}: mesh | error | order" for element in elements]
-    lines = [
-        f"| benchmark | quantity | known value | source | {' | '.join(heads)} |",
-        "|---" * (4 + 3 * len(elements)) + "|",
-    ]
-    for pair in pairs.values():
-        lines += [_row(pair, i) for i in range(len(pair[0].quantities))]
-    return "\n".join(lines) + "\n"
+    heads = ["benchmark", "quantity", "known value", "source"]
+    for benchmark in next(iter(pairs.values())):
+        heads += [f"{benchmark.element.replace('_', ' ')}: mesh", "error", "order"]
+    rows = (_row(pair, i) for pair in pairs.values() for i in range(len(pair[0].quantities)))
+    return markdown_table(heads, rows)
 
 
-def write_markdown(benchmarks: Iterable[Benchmark], path: str | Path) -> None:
+def page(benchmarks: Sequence[Benchmark]) -> str:
     """The table, and what is not met."""
-    benchmarks = list(benchmarks)
-    problems = [problem for benchmark in benchmarks for problem in benchmark.problems()]
-    text = table(benchmarks)
-    if problems:
-        text += "\nNot met:\n\n" + "".join(f"- {problem}\n" for problem in problems)
-    with written_whole(path) as partial:
-        partial.write_text(text)
+    missed = "".join(f"- {problem}\n" for problem in problems(benchmarks))
+    return table(benchmarks) + (f"\nNot met:\n\n{missed}" if missed else "")
 
 
-def _row(pair: Sequence[Benchmark], place: int) -> str:
+def _row(pair: Sequence[Benchmark], place: int) -> list[str]:
     """One quantity with every element."""
     q = pair[0].quantities[place]
     cells = [pair[0].title if place == 0 else "", q.name, _value(q), q.source]
     for benchmark in pair:
         mine = benchmark.quantities[place]
         cells += [str(mine.meshes[-1]), _percent(mine), _order(benchmark, mine)]
-    return f"| {' | '.join(cells)} |"
+    return cells
 
 
 def _value(quantity: Quantity) -> str:
