@@ -1,23 +1,16 @@
 """The dynamics study: its records, tables and figures, on a mesh of seconds."""
 
-import csv
-
 import numpy as np
 import pytest
 
-from foilstudy.base.files import read_json, write_json
+from foilstudy.base.costs import Cost
 from foilstudy.model.foil import Foil
 from foilstudy.model.shell.elements import DEFAULT_ELEMENT
 from foilstudy.pipeline.crumpled import Crumple
 from foilstudy.plot.save import save
 from foilstudy.study.dynamics import measure, plan, records, tables
-from foilstudy.study.dynamics.figures import FIGURES
-
-
-def test_names_say_which_model():
-    for model in (*plan.CHARTED, *plan.CHECKED):
-        assert plan.Model.named(model.name) == model
-    assert len({model.name for model in plan.CHARTED}) == len(plan.CHARTED)
+from foilstudy.study.kernel import Record, case_name
+from foilstudy.study.kernel.files import read_records, write_record
 
 
 @pytest.fixture(scope="module")
@@ -27,23 +20,24 @@ def study(coarse_crumple, tmp_path_factory):
     foil = Foil(0.2, 0.17, 0.13, 500e-6, sheet.material)
     points = coarse_crumple.points
     crumple = Crumple(foil, sheet.patch, points, sheet.reference, DEFAULT_ELEMENT)
-    folder = tmp_path_factory.mktemp("dynamics")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(measure, "read_crumple", lambda *_: crumple)
+        patch.setattr(measure, "crumple_of", lambda *_: crumple)
         patch.setattr(measure, "CUTOFFS_HZ", dict.fromkeys((0, 1, 2), (1000.0,)))
         patch.setattr(measure, "TOLERANCES", dict.fromkeys((0, 1, 2), (1e-3,)))
         patch.setattr(measure, "_FREQUENCIES", np.array([30.0, 300.0, 800.0]))
         made = {
-            stressed: measure.chart(plan.Model(500, prestressed=stressed).name, "")
+            stressed: measure.chart(plan.Model(500, prestressed=stressed), {})
             for stressed in (False, True)
         }
-        checked = measure.check(plan.Model(500).name, "")
-    for model in plan.CHARTED:
-        record = made[model.prestressed] | {"name": model.name}
-        write_json(record, folder / f"charts/{model.name}.json")
-    for model in plan.CHECKED:
-        write_json(checked | {"name": model.name}, folder / f"checks/{model.name}.json")
-    return records.Study.read(folder)
+        checked = measure.check(plan.Model(500), {})
+    folder = tmp_path_factory.mktemp("dynamics")
+    results = [("charts", model, made[model.prestressed]) for model in plan.CHARTED]
+    results += [("checks", model, checked) for model in plan.CHECKED]
+    results += [("shapes", shape, {"points": points}) for shape in plan.STUDY.part("shapes").cases]
+    for part, case, result in results:
+        path = folder / plan.STUDY.part(part).files(case_name(case))[0]
+        write_record(plan.STUDY, Record(part, case, result, Cost()), path)
+    return plan.STUDY.findings(read_records(plan.STUDY, folder))
 
 
 def test_default_reduction_meets_the_truth(study):
@@ -66,28 +60,22 @@ def test_modes_of_two_reductions_are_the_same(study):
     np.testing.assert_allclose(np.diag(matrix), 1, atol=1e-3)
 
 
-def test_tables_hold_what_was_measured(study, tmp_path):
-    tables.write_chart(study, tmp_path / "chart.csv")
-    tables.write_checks(study, tmp_path / "checks.csv")
-    tables.write_markdown(study, tmp_path / "page.md")
-    with (tmp_path / "chart.csv").open() as file:
-        rows = list(csv.DictReader(file))
+def test_tables_hold_what_was_measured(study):
+    rows = tables.reductions(study)
     assert len(rows) == 4 * len(plan.CHARTED)
     assert {row["method"] for row in rows} == set(records.METHODS)
-    with (tmp_path / "checks.csv").open() as file:
-        assert len(list(csv.DictReader(file))) == len(plan.CHECKED)
-    assert "largest error" in (tmp_path / "page.md").read_text()
+    assert len(tables.checks(study)) == len(plan.CHECKED)
+    assert "largest error" in tables.page(study)
 
 
-@pytest.mark.parametrize("name", FIGURES)
+@pytest.mark.parametrize("name", plan.STUDY.figures)
 def test_figures_can_be_drawn(name, study, tmp_path):
-    save(FIGURES[name](study), tmp_path / name)
+    save(plan.STUDY.figures[name](study), tmp_path / name)
     assert (tmp_path / f"{name}.png").stat().st_size > 10_000
 
 
-def test_a_failed_reduction_is_left_out(study, tmp_path):
+def test_a_failed_reduction_is_left_out():
     model = plan.Model(500)
-    record = {"rows": [{"method": "guyan", "order": 0.0, "failed": "why"}]}
-    write_json(record, tmp_path / "record.json")
-    other = records.Study({model: read_json(tmp_path / "record.json")}, {})
+    chart = {"rows": [{"method": "guyan", "order": 0.0, "failed": "why"}]}
+    other = records.Findings({model: chart}, {})
     assert other.rows(model) == []

@@ -7,7 +7,10 @@ from importlib import import_module
 from foilstudy.base.errors import ConfigError
 from foilstudy.study.kernel import Study
 
-MODULES = ("verification",)
+MODULES = (
+    "verification",
+    "dynamics",
+)
 """Modules of this package that define a ``STUDY``."""
 
 STUDIES: dict[str, Study] = {

@@ -1,1 +1,5 @@
-"""Reductions held against the full-order truth: error against order and cost."""
+"""Reductions against the full-order truth, error by order and cost: ``snakemake dynamics``."""
+
+from foilstudy.study.dynamics.plan import STUDY
+
+__all__ = ["STUDY"]

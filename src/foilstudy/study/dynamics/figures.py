@@ -8,7 +8,7 @@ from foilstudy.plot.mac import ModeLabels, draw_mac
 from foilstudy.plot.style import GREY, PAGE_WIDTH, decade_ticks, new_figure, styled, value_ticks
 from foilstudy.study.dynamics import plan
 from foilstudy.study.dynamics.measure import mode_correlation
-from foilstudy.study.dynamics.records import METHODS, Study
+from foilstudy.study.dynamics.records import METHODS, Findings
 
 _COLOURS = dict(zip(METHODS, ("0.6", "#4c72b0", "#c44e52", "#222222"), strict=True))
 _MARKERS = dict(zip(METHODS, "sv^o", strict=True))
@@ -22,7 +22,7 @@ def _tolerance(ax) -> None:
 
 
 @styled
-def cutoff(study: Study):
+def cutoff(study: Findings):
     """Largest error in the band against the cut-off, for the methods that have one."""
     figure = new_figure(PAGE_WIDTH, 4.2)
     for ax, thickness in zip(figure.subplots(1, 2, sharey=True), plan.THICKNESSES_UM, strict=True):
@@ -47,7 +47,7 @@ def cutoff(study: Study):
 
 
 @styled
-def cost(study: Study):
+def cost(study: Findings):
     """Largest error in the band against processor time, all methods and meshes."""
     figure = new_figure(PAGE_WIDTH, 7.2)
     panels = figure.subplots(2, 3, sharey=True)
@@ -79,7 +79,7 @@ def cost(study: Study):
 
 
 @styled
-def frequency(study: Study):
+def frequency(study: Findings):
     """Error against frequency with the published cut-off and the default tolerance."""
     figure = new_figure(PAGE_WIDTH, 7.2)
     panels = figure.subplots(2, 2, sharex=True, sharey=True)
@@ -109,7 +109,7 @@ def frequency(study: Study):
 
 
 @styled
-def mac(study: Study):
+def mac(study: Findings):
     """Clamped modes: of two reductions, and of the same shape on two meshes."""
     figure = new_figure(1.4 * PAGE_WIDTH, 1.4 * PAGE_WIDTH)
     panels = figure.subplots(2, 2)
@@ -130,7 +130,3 @@ def _correlation(ax, first: dict, second: dict, titles: tuple[str, str]) -> None
         for title, modes in zip(titles, (first, second), strict=True)
     )
     draw_mac(ax, np.asarray(mode_correlation(first, second)), rows, columns)
-
-
-FIGURES = {"cutoff": cutoff, "cost": cost, "frequency": frequency, "mac": mac}
-"""File name and how to draw it."""

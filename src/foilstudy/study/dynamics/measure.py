@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 
+from foilstudy.base.costs import measured
 from foilstudy.linalg import SolveError
 from foilstudy.measure.dynamics import (
     CraigBampton,
@@ -30,7 +29,6 @@ from foilstudy.measure.dynamics import (
 )
 from foilstudy.measure.dynamics.mac import mac
 from foilstudy.pipeline.vibration import surface_modes
-from foilstudy.study.convergence.crumpling import peak_memory_mb
 from foilstudy.study.dynamics.plan import (
     CUTOFFS_HZ,
     HIGHEST_HZ,
@@ -39,20 +37,20 @@ from foilstudy.study.dynamics.plan import (
     RATIO,
     TOLERANCES,
     Model,
+    Shape,
 )
-from foilstudy.study.dynamics.shapes import read_crumple, structure_of
+from foilstudy.study.dynamics.shapes import crumple_of, structure_of
+from foilstudy.study.kernel import Record
 
 _FREQUENCIES = np.array([3.0, 10.0, 30.0, 100.0, 200.0, 300.0, 400.0, 500.0, 600.0, 700.0, 800.0])
 _ON_FINE_MESHES = np.array([30.0, 100.0, 300.0, 600.0, 800.0])
 
 
-def chart(name: str, shape_path: str | Path) -> dict:
-    """Every reduction of a model at every order of the plan, fit for JSON."""
-    model = Model.named(name)
-    crumple = read_crumple(model, shape_path)
-    clock = time.process_time()
-    structure = structure_of(model, crumple)
-    seconds_static = time.process_time() - clock
+def chart(model: Model, shapes: Mapping[Shape, Record]) -> dict:
+    """Every reduction of a model at every order of the plan."""
+    crumple = crumple_of(model, shapes)
+    with measured() as static:
+        structure = structure_of(model, crumple)
     # modal damping needs 34 real factorisations more, and a stress-free structure
     fine = model.refinements == 2
     by_modes = not (model.prestressed or fine)
@@ -66,11 +64,10 @@ def chart(name: str, shape_path: str | Path) -> dict:
         if reduced is not None and method not in modes and order in (1000.0, 1e-3):
             modes[method] = _modes(reduced, crumple, model)
     return {
-        "name": name,
         "damping": type(damping).__name__,
         "unknowns": structure.mass.interior.shape[0],
-        "frequencies": frequencies.tolist(),
-        "seconds_static": seconds_static,
+        "frequencies": frequencies,
+        "seconds_static": static.cpu_seconds,
         "rows": rows,
         "modes": modes,
     }
@@ -99,21 +96,20 @@ def _judged(
     frequencies: np.ndarray,
     damping: Damping,
 ) -> tuple[dict, ReducedModel | None]:
-    clock = time.process_time()
     try:
-        model = reduction.reduce(structure)
+        with measured() as cost:
+            model = reduction.reduce(structure)
     except SolveError as error:
         return {"failed": str(error)}, None
-    seconds = time.process_time() - clock
     everywhere = replace(model, valid_to_hz=np.nan)
     error = relative_error(dynamic_stiffness(everywhere, frequencies, damping), truth)
     return {
         "size": model.size,
-        "seconds": seconds,
-        "peak_memory_mb": peak_memory_mb(),
+        "seconds": cost.cpu_seconds,
+        "peak_memory_mb": cost.peak_memory_mb,
         "estimate": model.error_estimate,
         "valid_to_hz": model.valid_to_hz,
-        "errors": error.max(axis=1).tolist(),  # transfer, driving, relative by frequency
+        "errors": error.max(axis=1),  # transfer, driving, relative by frequency
     }, model
 
 
@@ -125,7 +121,7 @@ def _modes(reduced: ReducedModel, crumple, model: Model) -> dict:
     scale = np.abs(surface).max(axis=(1, 2, 3), keepdims=True)
     # four digits are plenty for a correlation
     integers = np.round(1e4 * surface / scale).astype(int).reshape(len(surface), -1)
-    return {"frequencies": frequencies.tolist(), "shapes": integers.tolist()}
+    return {"frequencies": frequencies, "shapes": integers}
 
 
 def mode_correlation(first: dict, second: dict) -> np.ndarray:
@@ -133,27 +129,24 @@ def mode_correlation(first: dict, second: dict) -> np.ndarray:
     return mac(*(np.array(modes["shapes"], float).T for modes in (first, second)))
 
 
-def check(name: str, shape_path: str | Path) -> dict:
-    """The default reduction of a model against the full order, with its cost, fit for JSON."""
-    crumple = read_crumple(Model.named(name), shape_path)
+def check(model: Model, shapes: Mapping[Shape, Record]) -> dict:
+    """The default reduction of a model against the full order, with its cost."""
+    crumple = crumple_of(model, shapes)
     damping, wanted = ModalDamping(RATIO), Wanted()
-    clock = time.process_time()
-    structure = structure_of(Model.named(name), crumple)
-    model = RationalKrylov(wanted).reduce(structure)
-    grid = frequency_grid(wanted.lowest_hz, wanted.highest_hz, 200)
-    dynamic_stiffness(model, grid, damping)
-    seconds = time.process_time() - clock
+    with measured() as cost:
+        structure = structure_of(model, crumple)
+        reduced = RationalKrylov(wanted).reduce(structure)
+        grid = frequency_grid(wanted.lowest_hz, wanted.highest_hz, 200)
+        dynamic_stiffness(reduced, grid, damping)
     truth = directional_stiffness(full_order(structure, _FREQUENCIES, damping))
-    error = relative_error(dynamic_stiffness(model, _FREQUENCIES, damping), truth)
-    clock = time.process_time()
-    full_order(structure, _FREQUENCIES[-3:], StructuralDamping(2 * RATIO))
-    direct = (time.process_time() - clock) / 3
+    error = relative_error(dynamic_stiffness(reduced, _FREQUENCIES, damping), truth)
+    with measured() as direct:
+        full_order(structure, _FREQUENCIES[-3:], StructuralDamping(2 * RATIO))
     return {
-        "name": name,
-        "size": model.size,
-        "modes_below": int((model.clamped_eigenfrequencies() < HIGHEST_HZ).sum()),
-        "estimate": model.error_estimate,
+        "size": reduced.size,
+        "modes_below": int((reduced.clamped_eigenfrequencies() < HIGHEST_HZ).sum()),
+        "estimate": reduced.error_estimate,
         "error": float(error.max()),
-        "seconds": seconds,
-        "seconds_per_direct_frequency": direct,
+        "seconds": cost.cpu_seconds,
+        "seconds_per_direct_frequency": direct.cpu_seconds / 3,
     }

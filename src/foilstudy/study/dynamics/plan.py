@@ -1,8 +1,10 @@
-"""Which models the dynamics study reduces: plain data, cheap to import by the workflow."""
+"""Which models the dynamics study reduces, and what is made of them."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+
+from foilstudy.study.kernel import Lazy, Part, Study
 
 THICKNESSES_UM = (500, 50)
 HEIGHT_MM = 170
@@ -12,6 +14,14 @@ RATIO = 0.05
 """Share of the critical damping, as published."""
 MODES = 10
 """Clamped modes that are compared."""
+
+
+@dataclass(frozen=True)
+class Shape:
+    """A crumple on the mesh of 5 mm."""
+
+    thickness_um: int
+    height_mm: int
 
 
 @dataclass(frozen=True)
@@ -37,16 +47,9 @@ class Model:
         return CRUMPLED_MM / 2**self.refinements
 
     @property
-    def name(self) -> str:
-        """For example ``t50um_h170mm_r2_stressed``."""
-        stressed = "_stressed" if self.prestressed else ""
-        return f"t{self.thickness_um}um_h{self.height_mm}mm_r{self.refinements}{stressed}"
-
-    @classmethod
-    def named(cls, name: str) -> Model:
-        """The model of a name."""
-        thickness, height, refinements, *stressed = name.split("_")
-        return cls(int(thickness[1:-2]), int(height[1:-2]), int(refinements[1:]), bool(stressed))
+    def shape(self) -> Shape:
+        """The crumple it is made of."""
+        return Shape(self.thickness_um, self.height_mm)
 
 
 CHARTED = (
@@ -68,3 +71,38 @@ TOLERANCES = {0: (1e-1, 1e-2, 1e-3, 1e-4, 1e-5), 1: (1e-1, 1e-3, 1e-5), 2: (1e-3
 MODAL_REFINEMENTS_MAX = {50: 0, 500: 2}
 """By thickness: refinements up to which modes are searched. At 50 um there are so many on finer
 meshes that their search took more than ten minutes at 2.5 mm, and 18 GB of memory at 1.25 mm."""
+
+_HERE = "foilstudy.study.dynamics"
+_NEEDS = {"shapes": lambda model: [model.shape]}
+# the modes count on the finest mesh
+_MEMORY_MB = {0: 1500, 1: 3000, 2: 8000}
+
+STUDY = Study(
+    name="dynamics",
+    title="reductions held against the full order",
+    parts=(
+        Part(
+            "shapes",
+            tuple(dict.fromkeys(model.shape for model in (*CHARTED, *CHECKED))),
+            Lazy(f"{_HERE}.shapes:crumple_shape"),
+            arrays=("points",),
+        ),
+        Part(
+            "charts",
+            CHARTED,
+            Lazy(f"{_HERE}.measure:chart"),
+            needs=_NEEDS,
+            memory_mb=lambda model: _MEMORY_MB[model.refinements],
+        ),
+        Part("checks", CHECKED, Lazy(f"{_HERE}.measure:check"), needs=_NEEDS, memory_mb=1500),
+    ),
+    findings=Lazy(f"{_HERE}.records:Findings.of"),
+    tables={
+        "reductions.csv": Lazy(f"{_HERE}.tables:reductions"),
+        "checks.csv": Lazy(f"{_HERE}.tables:checks"),
+        "dynamics.md": Lazy(f"{_HERE}.tables:page"),
+    },
+    figures={
+        name: Lazy(f"{_HERE}.figures:{name}") for name in ("cutoff", "cost", "frequency", "mac")
+    },
+)

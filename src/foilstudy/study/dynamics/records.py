@@ -1,14 +1,13 @@
-"""Reading back what the jobs of the dynamics study have written."""
+"""What the records of the dynamics study say."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
-from foilstudy.base.files import read_json
 from foilstudy.study.dynamics import plan
+from foilstudy.study.kernel.files import Records
 
 METHODS = {
     "guyan": "Guyan",
@@ -54,8 +53,8 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Study:
-    """All records.
+class Findings:
+    """All results.
 
     Attributes
     ----------
@@ -69,12 +68,13 @@ class Study:
     checks: dict[plan.Model, dict]
 
     @classmethod
-    def read(cls, folder: Path) -> Study:
-        """Read what the jobs have written."""
-        return cls(
-            {m: read_json(folder / f"charts/{m.name}.json") for m in plan.CHARTED},
-            {m: read_json(folder / f"checks/{m.name}.json") for m in plan.CHECKED},
+    def of(cls, records: Records) -> Findings:
+        """From the records of a run."""
+        results = (
+            {model: record.result for model, record in records[part].items()}
+            for part in ("charts", "checks")
         )
+        return cls(*results)
 
     def rows(self, model: plan.Model, method: str | None = None) -> list[Row]:
         """Reductions of a model that succeeded, all or of one method, by rising cost."""

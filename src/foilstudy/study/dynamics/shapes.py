@@ -2,39 +2,36 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
-from pathlib import Path
 
-import numpy as np
-
-from foilstudy.base.files import written_whole
 from foilstudy.measure.dynamics import Structure
 from foilstudy.pipeline.crumpled import Crumple
 from foilstudy.pipeline.structures import prestressed_structure, stress_free_structure
 from foilstudy.study.convergence.crumpling import imperfect, settled
 from foilstudy.study.convergence.plan import Case
-from foilstudy.study.dynamics.plan import CRUMPLED_MM, Model
+from foilstudy.study.dynamics.plan import CRUMPLED_MM, Model, Shape
+from foilstudy.study.kernel import Record
 
 
-def crumple_shape(name: str, path: str | Path) -> None:
-    """Crumple the foil of a model on 5 mm and write its control points.
+def crumple_shape(shape: Shape) -> dict:
+    """Crumple a foil on 5 mm: its control points.
 
     Raises
     ------
     RuntimeError
         If it does not come to a stable equilibrium.
     """
-    crumple, numbers = settled(_case(Model.named(name)))
+    crumple, numbers = settled(_case(shape))
     if numbers["status"] != "converged":
-        raise RuntimeError(f"{name} did not settle: {numbers['message']}")
-    with written_whole(path) as partial, partial.open("wb") as file:
-        np.savez_compressed(file, points=crumple.points)
+        raise RuntimeError(f"{shape} did not settle: {numbers['message']}")
+    return numbers | {"points": crumple.points}
 
 
-def read_crumple(model: Model, path: str | Path) -> Crumple:
+def crumple_of(model: Model, shapes: Mapping[Shape, Record]) -> Crumple:
     """The crumple of a model on the mesh of that model."""
-    with np.load(path) as values:
-        crumple = replace(imperfect(_case(model)), points=values["points"])
+    points = shapes[model.shape].result["points"]
+    crumple = replace(imperfect(_case(model.shape)), points=points)
     for _ in range(model.refinements):
         crumple = crumple.refined()
     return crumple
@@ -45,5 +42,5 @@ def structure_of(model: Model, crumple: Crumple) -> Structure:
     return (prestressed_structure if model.prestressed else stress_free_structure)(crumple)
 
 
-def _case(model: Model) -> Case:
-    return Case("corner", model.thickness_um, model.height_mm, CRUMPLED_MM, 0)
+def _case(shape: Shape) -> Case:
+    return Case("corner", shape.thickness_um, shape.height_mm, CRUMPLED_MM, 0)

@@ -2,111 +2,109 @@
 
 from __future__ import annotations
 
-import csv
-from pathlib import Path
+from operator import itemgetter
 
-from foilstudy.base.files import written_whole
+from foilstudy.base.tables import markdown_table
+from foilstudy.measure.dynamics.response import DEFINITIONS
 from foilstudy.study.dynamics.plan import CHECKED, HIGHEST_HZ, Model
-from foilstudy.study.dynamics.records import METHODS, Study
+from foilstudy.study.dynamics.records import METHODS, Findings
 
 _DIRECT_FREQUENCIES = 200
 
 
-def write_chart(study: Study, path: Path) -> None:
-    """Every reduction: one line each."""
-    head = [
-        "thickness_um", "height_mm", "element_size_mm", "prestressed", "damping", "unknowns",
-        "method", "order", "coordinates", "seconds", "peak_memory_mb", "estimated_error",
-        "error_transfer", "error_driving", "error_relative", "valid_to_hz",
-    ]  # fmt: skip
-    lines = []
-    for model, chart in study.charts.items():
-        for row in study.rows(model):
-            lines.append(
-                [
-                    model.thickness_um, model.height_mm, model.size_mm, int(model.prestressed),
-                    chart["damping"], chart["unknowns"], row.method, row.order, row.size,
-                    f"{row.seconds:.3g}", f"{row.peak_memory_mb:.0f}", f"{row.estimate:.2e}",
-                    *(f"{error:.2e}" for error in row.errors.max(axis=1)), f"{row.valid_to_hz:.4g}",
-                ]
-            )  # fmt: skip
-    _write_csv(path, head, lines)
+def reductions(study: Findings) -> list[dict]:
+    """Every reduction: one row each."""
+    return [
+        {
+            "thickness_um": model.thickness_um,
+            "height_mm": model.height_mm,
+            "element_size_mm": model.size_mm,
+            "prestressed": int(model.prestressed),
+            "damping": chart["damping"],
+            "unknowns": chart["unknowns"],
+            "method": row.method,
+            "order": row.order,
+            "coordinates": row.size,
+            "seconds": f"{row.seconds:.3g}",
+            "peak_memory_mb": f"{row.peak_memory_mb:.0f}",
+            "estimated_error": f"{row.estimate:.2e}",
+            **{
+                f"error_{definition}": f"{error:.2e}"
+                for definition, error in zip(DEFINITIONS, row.errors.max(axis=1), strict=True)
+            },
+            "valid_to_hz": f"{row.valid_to_hz:.4g}",
+        }
+        for model, chart in study.charts.items()
+        for row in study.rows(model)
+    ]
 
 
-def write_checks(study: Study, path: Path) -> None:
-    """The default reduction in every configuration: one line each."""
-    head = [
-        "thickness_um", "height_mm", "coordinates", "clamped_modes_below_800_hz",
-        "estimated_error", "error", "seconds", "times_cheaper_than_200_direct",
-    ]  # fmt: skip
-    lines = []
-    for model, check in study.checks.items():
-        lines.append(
-            [
-                model.thickness_um, model.height_mm, check["size"], check["modes_below"],
-                f"{check['estimate']:.2e}", f"{check['error']:.2e}", f"{check['seconds']:.3g}",
-                f"{_times_cheaper(check):.0f}",
-            ]
-        )  # fmt: skip
-    _write_csv(path, head, lines)
+def checks(study: Findings) -> list[dict]:
+    """The default reduction in every configuration: one row each."""
+    return [
+        {
+            "thickness_um": model.thickness_um,
+            "height_mm": model.height_mm,
+            "coordinates": check["size"],
+            "clamped_modes_below_800_hz": check["modes_below"],
+            "estimated_error": f"{check['estimate']:.2e}",
+            "error": f"{check['error']:.2e}",
+            "seconds": f"{check['seconds']:.3g}",
+            "times_cheaper_than_200_direct": f"{_times_cheaper(check):.0f}",
+        }
+        for model, check in study.checks.items()
+    ]
 
 
 def _times_cheaper(check: dict) -> float:
     return _DIRECT_FREQUENCIES * check["seconds_per_direct_frequency"] / check["seconds"]
 
 
-def _write_csv(path: Path, head: list[str], lines: list[list]) -> None:
-    with written_whole(path) as partial, partial.open("w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerows([head, *lines])
-
-
-def write_markdown(study: Study, path: Path) -> None:
+def page(study: Findings) -> str:
     """What the study found, as a page."""
-    worst = max(study.checks.values(), key=lambda check: check["error"])
-    slowest = max(study.checks.values(), key=lambda check: check["seconds"])
+    worst, error = max(
+        ((model, check["error"]) for model, check in study.checks.items()), key=itemgetter(1)
+    )
+    slowest, seconds = max(
+        ((model, check["seconds"]) for model, check in study.checks.items()), key=itemgetter(1)
+    )
     cheaper = min(_times_cheaper(check) for check in study.checks.values())
     text = [
         "# Reductions against the full order",
         "",
         f"The default reduction (rational Krylov, tolerance 1e-3) in the {len(CHECKED)} "
         f"configurations of the published study, 5 mm elements, 5 % modal damping, 3 to "
-        f"{HIGHEST_HZ:g} Hz: largest error {worst['error']:.1e} ({_words(worst['name'])}); at most "
-        f"{slowest['seconds']:.1f} s of processor time ({_words(slowest['name'])}); at least "
+        f"{HIGHEST_HZ:g} Hz: largest error {error:.1e} ({_words(worst)}); at most "
+        f"{seconds:.1f} s of processor time ({_words(slowest)}); at least "
         f"{cheaper:.0f} times cheaper than a direct solution at {_DIRECT_FREQUENCIES} frequencies.",
         "",
     ]
     for model in study.charts:
         text += _section(study, model)
-    with written_whole(path) as partial:
-        partial.write_text("\n".join(text) + "\n", encoding="utf-8")
+    return "\n".join(text) + "\n"
 
 
-def _words(name: str) -> str:
-    model = Model.named(name)
+def _words(model: Model) -> str:
     return f"{model.thickness_um} µm, {model.height_mm} mm"
 
 
-def _section(study: Study, model: Model) -> list[str]:
+def _section(study: Findings, model: Model) -> list[str]:
     chart = study.charts[model]
     kind = "with its stresses" if model.prestressed else "free of stress"
     damping = chart["damping"].replace("Damping", "").lower()
+    heads = ["method", "order", "coordinates", "CPU s", "own estimate", *DEFINITIONS]
+    rows = [
+        [METHODS[row.method], _order(row.method, row.order), row.size, f"{row.seconds:.1f}",
+         f"{row.estimate:.1e}", *(f"{error:.1e}" for error in row.errors.max(axis=1))]
+        for row in study.rows(model)
+    ]  # fmt: skip
     return [
         f"## {model.thickness_um} µm, {model.size_mm:g} mm elements, {kind}",
         "",
         f"{chart['unknowns']:,} unknowns, {damping} damping; assembling and condensing took "
         f"{chart['seconds_static']:.1f} s.",
         "",
-        "| method | order | coordinates | CPU s | own estimate | transfer | driving | relative |",
-        "|---|---|---|---|---|---|---|---|",
-        *(
-            f"| {METHODS[row.method]} | {_order(row.method, row.order)} | {row.size} | "
-            f"{row.seconds:.1f} | {row.estimate:.1e} | "
-            + " | ".join(f"{error:.1e}" for error in row.errors.max(axis=1))
-            + " |"
-            for row in study.rows(model)
-        ),
-        "",
+        markdown_table(heads, rows),
     ]
 
 
