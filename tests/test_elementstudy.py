@@ -1,25 +1,31 @@
 """The comparison of elements: what it measures, and that its table and chart come of it."""
 
 import csv
+from dataclasses import asdict
 
 import numpy as np
 import pytest
 
+from foilstudy.base.costs import Cost
+from foilstudy.base.tables import csv_text
 from foilstudy.model.patch import Patch, cylinder_control_points
 from foilstudy.model.shell.elements import DEFAULT_ELEMENT
-from foilstudy.study.elements import VARIANT_NAMES, records
+from foilstudy.study.elements import STUDY, plan, summary
 from foilstudy.study.elements.bending import ring_error
 from foilstudy.study.elements.chart import draw
-from foilstudy.study.elements.crumpling import FINE_SIZES, Crumples
+from foilstudy.study.elements.crumpling import Crumples
+from foilstudy.study.elements.errors import VariantErrors
 from foilstudy.study.elements.frozen import FrozenShape, frozen_errors, stiffness_of
+from foilstudy.study.elements.plan import BASELINE, DEFAULT
 from foilstudy.study.elements.scene import COARSE, DIAMETER, REFERENCE_HEIGHT
-from foilstudy.study.elements.summary import FROZEN_UM, Study, write_csv, write_markdown
-from foilstudy.study.elements.variants import BASELINE, DEFAULT, VARIANTS
+from foilstudy.study.elements.variants import VARIANTS
+from foilstudy.study.kernel import Record, case_name
+from foilstudy.study.kernel.files import read_records, write_record
 
 
 def test_the_workflow_lists_every_variant():
-    assert VARIANT_NAMES == tuple(VARIANTS)
-    assert {DEFAULT, BASELINE} <= set(VARIANT_NAMES)
+    assert plan.VARIANT_NAMES == tuple(VARIANTS)
+    assert {DEFAULT, BASELINE} <= set(plan.VARIANT_NAMES)
     assert VARIANTS[DEFAULT].element == DEFAULT_ELEMENT
 
 
@@ -52,25 +58,32 @@ def test_errors_of_a_frozen_shape_are_relative_to_the_mean_of_the_referees():
 @pytest.fixture
 def study(tmp_path):
     """Made-up records of all variants, one of which found no answers."""
-    for k, name in enumerate(VARIANT_NAMES):
+
+    def write(part, case, result):
+        record = Record(part, case, result, Cost())
+        write_record(STUDY, record, tmp_path / STUDY.part(part).files(case_name(case))[0])
+
+    for k, name in enumerate(plan.VARIANT_NAMES):
         error = np.nan if k == 0 else 0.01 * k
-        errors = records.VariantErrors(
+        errors = VariantErrors(
             {f"{s:g}": error for s in (0.01, 0.02, 0.05, 0.1, 0.2)},
             error,
-            {t: (error, -error) for t in FROZEN_UM},
+            {str(case.thickness_um): (error, -error) for case in plan.FROZEN},
             2.0 + error,
         )
-        records.write(errors, tmp_path / f"variants/{name}.json")
+        write("variants", name, asdict(errors))
         energies = (np.nan, np.nan) if k == 0 else (4.0, np.nan)
         crumples = Crumples(5e-3, energies, (3000, 7000), ("converged", "not_converged"))
-        records.write(crumples, tmp_path / f"crumples/{name}.json")
-    (tmp_path / "buckled.json").write_text('{"energies": [3.0, 2.0]}')
-    for size in FINE_SIZES:
-        fine = Crumples(size, (3.2,), (9000,), ("converged",))
-        records.write(fine, tmp_path / f"fine_{1e3 * size:g}mm.json")
-    costs = {"relative": dict.fromkeys(VARIANT_NAMES, 1.5), "nanoseconds": {DEFAULT: 60.0}}
-    (tmp_path / "cost.json").write_text(str(costs).replace("'", '"'))
-    return Study.read(tmp_path)
+        write("crumples", name, asdict(crumples))
+    write("buckled", DEFAULT, {"energies": [3.0, 2.0]})
+    for case in plan.FINE:
+        fine = Crumples(case.size_mm, (3.2,), (9000,), ("converged",))
+        write("fine", case, asdict(fine))
+    for case in plan.FROZEN:
+        write("frozen", case, {"points": np.zeros((3, 2, 2))})
+    costs = {"relative": dict.fromkeys(plan.VARIANT_NAMES, 1.5), "nanoseconds": {DEFAULT: 60.0}}
+    write("cost", BASELINE, costs)
+    return STUDY.findings(read_records(STUDY, tmp_path))
 
 
 def test_numbers_of_a_variant_come_through(study):
@@ -83,14 +96,11 @@ def test_numbers_of_a_variant_come_through(study):
     assert row["crumple_error"] == pytest.approx(0.25)
 
 
-def test_what_found_no_answer_is_empty_in_the_tables_and_missing_in_the_chart(study, tmp_path):
-    write_csv(study, tmp_path / "elements.csv")
-    with open(tmp_path / "elements.csv") as file:
-        rows = list(csv.DictReader(file))
-    assert [row["variant"] for row in rows] == list(VARIANT_NAMES)
+def test_what_found_no_answer_is_empty_in_the_tables_and_missing_in_the_chart(study):
+    rows = list(csv.DictReader(csv_text(summary.rows(study)).splitlines()))
+    assert [row["variant"] for row in rows] == list(plan.VARIANT_NAMES)
     assert rows[0]["roll_up"] == "" and rows[4]["roll_up"] == "0.04"
-    write_markdown(study, tmp_path / "elements.md")
-    lines = (tmp_path / "elements.md").read_text().splitlines()
+    lines = summary.page(study).splitlines()
     assert lines[2].startswith("| one point, χ = 0.01 | 1.50 | - | - |")
     figure = draw(study)
     assert len(figure.axes) == 6

@@ -9,6 +9,7 @@ from foilstudy.study.kernel import Study
 
 MODULES = (
     "verification",
+    "elements",
     "dynamics",
 )
 """Modules of this package that define a ``STUDY``."""

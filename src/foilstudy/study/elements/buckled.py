@@ -20,7 +20,7 @@ from foilstudy.model.supports.edges import RIGID_LINES, Constraints, constraints
 from foilstudy.model.supports.loads import DeadLoad
 from foilstudy.solve.equilibrium.newton import NewtonOptions, NewtonResult, minimise
 from foilstudy.solve.paths.loaded_sheet import LoadedSheet
-from foilstudy.study.elements.variants import DEFAULT, VARIANTS, Variant
+from foilstudy.study.elements.variants import VARIANTS, Variant
 from foilstudy.study.foils import FEP
 
 THICKNESS = 500e-6
@@ -69,12 +69,12 @@ def buckled(variant: Variant) -> Buckled:
 
 @dataclass(frozen=True)
 class ReferenceEnergies:
-    """Energies of the default element on the meshes of `LEVELS`, J."""
+    """Energies of one element on the meshes of `LEVELS`, J."""
 
     energies: tuple[float, ...]
 
 
-def reference_energies() -> ReferenceEnergies:
+def reference_energies(name: str) -> ReferenceEnergies:
     """Follow the path on the coarse mesh, then refine.
 
     The equilibrium on a finer mesh is sought from that on the coarser one, refined.
@@ -84,7 +84,7 @@ def reference_energies() -> ReferenceEnergies:
     SolveError
         If one is not found.
     """
-    variant = VARIANTS[DEFAULT]
+    variant = VARIANTS[name]
     coarse = buckled(variant)
     energies, points = [coarse.energy], coarse.points
     for level in LEVELS[1:]:

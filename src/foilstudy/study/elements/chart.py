@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from foilstudy.base.reference import EXPLICIT_CODE_ENERGIES
 from foilstudy.plot.style import GREY, PAGE_WIDTH, line_style, marker, new_figure, styled
 from foilstudy.study.elements.bending import SLENDERNESS
-from foilstudy.study.elements.crumpling import FINE_SIZES, PUBLISHED_2MM5, PUBLISHED_5MM
-from foilstudy.study.elements.frozen import THICKNESSES
-from foilstudy.study.elements.scene import COARSE, micrometres
-from foilstudy.study.elements.summary import Study
-from foilstudy.study.elements.variants import DEFAULT, VARIANTS
+from foilstudy.study.elements.plan import DEFAULT, FROZEN
+from foilstudy.study.elements.scene import COARSE
+from foilstudy.study.elements.summary import Findings
+from foilstudy.study.elements.variants import VARIANTS
 
 _HEIGHT = 12.5
 _COLOURS = {
@@ -25,7 +25,7 @@ _LEGEND_COLUMNS = 4
 
 
 @styled
-def draw(study: Study):
+def draw(study: Findings):
     """Six panels: error against t/h for both kinds of task, then error against cost.
 
     Returns
@@ -36,7 +36,7 @@ def draw(study: Study):
     axes = figure.subplots(3, 2)
     _against_slenderness(axes[0, 0], study, _ring, SLENDERNESS)
     axes[0, 0].set_title("bending a coarse ring (R = 2.5 h), against theory")
-    slenderness = tuple(t / COARSE for t in THICKNESSES)
+    slenderness = tuple(case.thickness_um * 1e-6 / COARSE for case in FROZEN)
     _against_slenderness(axes[0, 1], study, _axial, slenderness)
     axes[0, 1].set_title("axial stiffness of a given crumple, 5 mm against 1.25 mm")
     costs = [(axes[1, 0], "axial_500um", "stiffness of a given crumple, 500 µm")]
@@ -70,10 +70,10 @@ def _ring(row: dict, index: int) -> float:
 
 
 def _axial(row: dict, index: int) -> float:
-    return row[f"axial_{micrometres(THICKNESSES[index])}um"]
+    return row[f"axial_{FROZEN[index].thickness_um}um"]
 
 
-def _against_slenderness(ax, study: Study, value, slenderness) -> None:
+def _against_slenderness(ax, study: Findings, value, slenderness) -> None:
     for name, variant in VARIANTS.items():
         row = study.row(name)
         errors = [abs(value(row, k)) for k in range(len(slenderness))]
@@ -86,7 +86,7 @@ def _against_slenderness(ax, study: Study, value, slenderness) -> None:
     ax.set_ylabel("relative error")
 
 
-def _against_cost(ax, study: Study, key: str) -> None:
+def _against_cost(ax, study: Findings, key: str) -> None:
     for name in VARIANTS:
         row = study.row(name)
         ax.plot(row["cost"], abs(row[key]), **_look(name))
@@ -96,18 +96,19 @@ def _against_cost(ax, study: Study, key: str) -> None:
     ax.set_ylabel("relative error")
 
 
-def _crumple_energy(ax, study: Study) -> None:
-    """Energy of crumples against cost, beside finer meshes and the published values."""
+def _crumple_energy(ax, study: Findings) -> None:
+    """Energy of crumples against cost, beside finer meshes and those of an explicit code."""
     for name in VARIANTS:
         energies = study.crumples[name]["energies"]
         cost = study.cost["relative"][name]
         ax.plot([cost] * len(energies), energies, **_look(name) | {"ls": "none"})
-    for energy in PUBLISHED_5MM:
-        ax.axhline(energy, color="#8172b3", lw=1.0, label="published, QEPH 5 mm")
-    ax.axhline(PUBLISHED_2MM5, color="#8172b3", lw=1.0, ls="--", label="published, QEPH 2.5 mm")
-    for size, style in zip(FINE_SIZES, ("--", "-"), strict=True):
-        energy = np.nanmean(study.fine[size]["energies"])
-        ax.axhline(energy, color=GREY, lw=1.6, ls=style, label=f"default, {1e3 * size:g} mm")
+    for (size, energies), style in zip(EXPLICIT_CODE_ENERGIES.items(), ("-", "--"), strict=True):
+        for energy in energies:
+            label = f"QEPH, this project, {size:g} mm"
+            ax.axhline(energy, color="#8172b3", lw=1.0, ls=style, label=label)
+    for (size, record), style in zip(study.fine.items(), ("--", "-"), strict=True):
+        energy = np.nanmean(record["energies"])
+        ax.axhline(energy, color=GREY, lw=1.6, ls=style, label=f"default, {size:g} mm")
     handles, labels = ax.get_legend_handles_labels()
     unique = dict(zip(labels, handles, strict=True))
     ax.legend(unique.values(), unique.keys(), fontsize=8, loc="upper left")

@@ -11,7 +11,7 @@ from foilstudy.model.patch import Patch, cylinder_control_points
 from foilstudy.model.shell.elements import Element
 from foilstudy.model.shell.sheet_model import SheetModel
 from foilstudy.study.elements.scene import COARSE, DIAMETER, REFERENCE_HEIGHT
-from foilstudy.study.elements.variants import BASELINE, VARIANTS
+from foilstudy.study.elements.variants import VARIANTS
 from foilstudy.study.foils import FEP
 
 _THICKNESS = 500e-6
@@ -34,7 +34,7 @@ class Costs:
     nanoseconds: dict[str, float]
 
 
-def costs() -> Costs:
+def costs(baseline: str) -> Costs:
     """Measure all variants in turns, so that other load on the machine meets all alike."""
     general = {name: _timed(variant.general) for name, variant in VARIANTS.items()}
     fast = {name: _timed(variant.fast) for name, variant in VARIANTS.items() if variant.fast}
@@ -47,7 +47,7 @@ def costs() -> Costs:
         for name, once in fast.items():
             fast_seconds[name].append(min(once() for _ in range(20)))
         for name in general:
-            ratios[name].append(seconds[name][-1] / seconds[BASELINE][-1])
+            ratios[name].append(seconds[name][-1] / seconds[baseline][-1])
     return Costs(
         {name: float(np.median(values)) for name, values in ratios.items()},
         {name: 1e9 * float(np.median(values)) for name, values in fast_seconds.items()},

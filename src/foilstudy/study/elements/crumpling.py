@@ -6,19 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from foilstudy.study.elements.plan import DEFAULT, FINE, Fine
 from foilstudy.study.elements.scene import COARSE, crumple
 from foilstudy.study.elements.variants import VARIANTS
 
 THICKNESS = 500e-6
 SEEDS = (0, 1)
-FINE_SIZES = (2.5e-3, 1.25e-3)
 _FINE_STEPS_MAX = 20_000
-
-PUBLISHED_5MM = (5.04, 4.74, 4.83)
-PUBLISHED_2MM5 = 4.31
-"""Strain energies of the published study, J: explicit code with 4-node QEPH shells, 500 um,
-h_ref 0.17 m, three seeds at 5 mm and one at 2.5 mm (M. Bader, Structural Dynamics of Crumpled Thin
-Sheets, TU Delft, 2026)."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +52,7 @@ def crumples(
     return Crumples(size, tuple(energies), tuple(steps), tuple(statuses))
 
 
-def fine_crumples(name: str, size: float) -> Crumples:
-    """On a fine mesh: both seeds on the middle one, the first on the finest."""
-    seeds = SEEDS if size > min(FINE_SIZES) else SEEDS[:1]
-    return crumples(name, size, seeds, steps_max=_FINE_STEPS_MAX)
+def fine_crumples(case: Fine) -> Crumples:
+    """By the default on a fine mesh: both seeds on the middle one, the first on the finest."""
+    seeds = SEEDS if case.size_mm > FINE[-1].size_mm else SEEDS[:1]
+    return crumples(DEFAULT, case.size_mm * 1e-3, seeds, steps_max=_FINE_STEPS_MAX)

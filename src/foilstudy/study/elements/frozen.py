@@ -11,12 +11,11 @@ from foilstudy.measure.stiffness import InterfaceSystem, Rings, condense, fixed_
 from foilstudy.model.patch import Patch, refine
 from foilstudy.model.shell.sheet_model import SheetModel
 from foilstudy.model.shell.tangent import stiffness_matrix
+from foilstudy.study.elements.plan import DEFAULT, Frozen
 from foilstudy.study.elements.scene import COARSE, DIAMETER, REFERENCE_HEIGHT, crumple
-from foilstudy.study.elements.variants import DEFAULT, VARIANTS, Variant
+from foilstudy.study.elements.variants import VARIANTS, Variant
 from foilstudy.study.foils import FEP
 
-THICKNESSES = (50e-6, 250e-6, 500e-6, 1000e-6)
-"""m; on 5 mm elements t/h = 0.01 to 0.2."""
 _REFEREES = (DEFAULT, "staggered_0")
 _REFINEMENTS = 2
 
@@ -46,7 +45,7 @@ class FrozenShape:
         return self.referees.mean(axis=0)
 
 
-def frozen_shape(thickness: float) -> FrozenShape:
+def frozen_shape(case: Frozen) -> FrozenShape:
     """Crumple with the default element, refine the shape twice, and measure it.
 
     Raises
@@ -54,6 +53,7 @@ def frozen_shape(thickness: float) -> FrozenShape:
     SolveError
         If the crumple diverges or a refined stiffness cannot be condensed.
     """
+    thickness = case.thickness_um * 1e-6
     sheet, result = crumple(VARIANTS[DEFAULT].element, COARSE, thickness, seed=0)
     if result.status == "diverged":
         raise SolveError(f"the crumple whose stiffness is compared failed: {result.message}")

@@ -82,8 +82,3 @@ VARIANTS: dict[str, Variant] = {
     "corner_1_bend_4": _corner("fold 1, 2×2 bending", 1.0, bending_points=2),
 }
 """By the name that files give them, in the order of the tables."""
-
-DEFAULT = "corner_1"
-"""The element of the default configuration."""
-BASELINE = "one_point_0p05"
-"""The element of the design, against which costs count."""
