@@ -6,26 +6,22 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
+from foilstudy.base.costs import Cost
 from foilstudy.base.files import read_json, write_json
+from foilstudy.base.tables import csv_text
 from foilstudy.model.mesh_size import element_size_for, expected_energy_error
 from foilstudy.plot.save import save
-from foilstudy.study.convergence import crumpling, plan, stops
+from foilstudy.study.convergence import STUDY, crumpling, plan, stops, tables
 from foilstudy.study.convergence.analysis import fit, means, slope
-from foilstudy.study.convergence.figures import FIGURES
-from foilstudy.study.convergence.records import Study
-from foilstudy.study.convergence.tables import write_crumples, write_markdown, write_stops
+from foilstudy.study.convergence.records import Findings
+from foilstudy.study.kernel import Record, case_name
+from foilstudy.study.kernel.files import read_records, write_record
 
 COARSE = plan.Case("corner", 500, 150, 12.0, 0)
 SIZES = np.array(plan.SIZES_MM)
 
 
 # --- plan ----------------------------------------------------------------------------------------
-
-
-def test_names_tell_the_cases_apart_and_lead_back_to_them():
-    cases = [*plan.crumples(), *plan.STOPPED]
-    assert [plan.Case.named(case.name) for case in cases] == cases
-    assert len({case.name for case in plan.crumples()}) == len(plan.crumples())
 
 
 def test_every_mesh_resolves_the_imperfection_and_begins_with_the_same_foil():
@@ -121,7 +117,7 @@ def test_crumples_of_the_study_obey_the_expected_error():
 def test_a_coarse_crumple_has_all_its_numbers(monkeypatch, tmp_path):
     monkeypatch.setattr(crumpling, "_REFINEMENTS_MAX", 1)
     monkeypatch.setattr(crumpling, "_CORRELATION", 20e-3)
-    record = crumpling.run(COARSE.name)
+    record = crumpling.run(COARSE)
     assert (record["status"], record["negative_eigenvalues"]) == ("converged", 0)
     assert record["residual"] <= 1e-8
     parts = ("membrane_energy", "bending_energy", "stabilisation_energy")
@@ -136,7 +132,7 @@ def test_a_coarse_crumple_has_all_its_numbers(monkeypatch, tmp_path):
 def test_a_stopped_crumple_comes_to_rest(monkeypatch):
     monkeypatch.setattr(crumpling, "_CORRELATION", 20e-3)
     monkeypatch.setattr(stops, "STOPS", (1e-1, 1e-3, 1e-5, 1e-6))
-    records = stops.run_stops(COARSE.name)
+    records = stops.run_stops(COARSE)
     stiffness = np.array([record["static_stiffness"] for record in records])
     change = np.abs(stiffness[:-1] / stiffness[-1] - 1).max(axis=1)
     assert change[0] > change[-1]
@@ -152,7 +148,7 @@ def fake_record(case, size=None):
     energy = 3.0 + 0.05 * size**2 + 0.1 * case.seed
     stiffness = [1e3 * (1 + 0.02 * size), 2e3 * (1 + 0.02 * size)]
     return {
-        "name": case.name, "status": "converged", "message": "", "size_mm": size, "elements": 100,
+        "status": "converged", "message": "", "size_mm": size, "elements": 100,
         "strain_energy": energy, "membrane_energy": 0.2 * energy, "bending_energy": 0.79 * energy,
         "stabilisation_energy": 0.01 * energy, "static_stiffness": stiffness,
         "static_limit": [None, None] if size < 2 else stiffness,
@@ -175,46 +171,46 @@ def fake_stop(residual):
 @pytest.fixture(scope="module")
 def synthetic_study(tmp_path_factory):
     folder = tmp_path_factory.mktemp("convergence")
+
+    def write(part, case, result):
+        record = Record(part, case, result, Cost())
+        write_record(STUDY, record, folder / STUDY.part(part).files(case_name(case))[0])
+
     for case in plan.crumples():
-        write_json(fake_record(case), folder / f"crumples/{case.name}.json")
+        write("crumples", case, fake_record(case))
     for case in plan.MULTILEVEL:
         levels = [fake_record(case, size) | {"level": k} for k, size in enumerate((5, 2.5, 1.25))]
-        write_json(levels, folder / f"levels/{case.name}.json")
+        write("levels", case, levels)
     for case in plan.STOPPED:
-        write_json(
-            [fake_stop(residual) for residual in plan.STOPS], folder / f"stops/{case.name}.json"
-        )
+        write("stops", case, [fake_stop(residual) for residual in plan.STOPS])
     timing = [
         {"thickness_um": t, "size_mm": s, "elements": 1, "seconds_per_step": 1e-2 * s**-2.1}
         for t in plan.THICKNESSES_UM
         for s in plan.SIZES_MM
     ]
-    write_json(timing, folder / "timing.json")
-    return Study.read(folder)
+    write("timing", "steps", timing)
+    return STUDY.findings(read_records(STUDY, folder))
 
 
-def test_tables_hold_every_run(synthetic_study, tmp_path):
-    write_crumples(synthetic_study, tmp_path / "convergence.csv")
-    write_stops(synthetic_study, tmp_path / "stops.csv")
-    rows = list(csv.DictReader((tmp_path / "convergence.csv").open()))
+def test_tables_hold_every_run(synthetic_study):
+    text = csv_text(tables.crumples(synthetic_study))
+    rows = list(csv.DictReader(text.splitlines()))
     assert len(rows) == len(plan.crumples()) + 3 * len(plan.MULTILEVEL)
     fine = [row for row in rows if row["asked_size_mm"] == "1.25"]
     assert fine and all(row["static_limit_axial"] == "" for row in fine)
-    stopped = list(csv.DictReader((tmp_path / "stops.csv").open()))
-    assert len(stopped) == len(plan.STOPPED) * len(plan.STOPS)
+    assert len(tables.stops(synthetic_study)) == len(plan.STOPPED) * len(plan.STOPS)
 
 
-def test_text_states_limits_and_exponents(synthetic_study, tmp_path):
-    write_markdown(synthetic_study, tmp_path / "convergence.md")
-    text = (tmp_path / "convergence.md").read_text()
+def test_text_states_limits_and_exponents(synthetic_study):
+    text = tables.page(synthetic_study)
     assert "exponent -2.10 +- 0.00" in text
     assert "order 2.0" in text
     assert "nan" not in text
 
 
-@pytest.mark.parametrize("name", FIGURES)
+@pytest.mark.parametrize("name", STUDY.figures)
 def test_figures_are_drawn_whole(synthetic_study, tmp_path, name):
-    save(FIGURES[name](synthetic_study), tmp_path / name)
+    save(STUDY.figures[name](synthetic_study), tmp_path / name)
     assert (tmp_path / f"{name}.png").read_bytes()[:4] == b"\x89PNG"
     ElementTree.parse(tmp_path / f"{name}.svg")
 
@@ -223,7 +219,7 @@ def test_a_realisation_that_did_not_converge_is_left_out_of_means(synthetic_stud
     case = plan.crumples()[0]
     records = dict(synthetic_study.crumples)
     records[case] = records[case] | {"status": "not_converged"}
-    changed = Study(records, {}, {}, [])
+    changed = Findings(records, {}, {}, [])
     key = ("strain_energy", case.thickness_um)
     assert len(changed.ensemble(*key)[case.size_mm]) == 2
     assert len(synthetic_study.ensemble(*key)[case.size_mm]) == 3

@@ -32,6 +32,8 @@ class Cost:
 
 _open: list[Cost] = []
 """Blocks being measured, outermost first."""
+_forgotten_mb = 0.0
+"""Peak of this process before the system was made to forget it."""
 
 
 @contextmanager
@@ -44,9 +46,8 @@ def measured() -> Iterator[Cost]:
     cost = Cost()
     _note_peak()
     _open.append(cost)
-    # the kernel forgets the peak so far
     with suppress(OSError):
-        Path("/proc/self/clear_refs").write_text("5")
+        Path("/proc/self/clear_refs").write_text("5")  # forget the peak
     clock, processor = time.perf_counter(), time.process_time()
     try:
         yield cost
@@ -58,17 +59,24 @@ def measured() -> Iterator[Cost]:
 
 
 def peak_memory_mb() -> float:
-    """Largest memory of this process, MB; within `measured`, of the block so far."""
+    """Largest memory of this process so far, MB."""
+    return max(_forgotten_mb, _remembered_mb())
+
+
+def _note_peak() -> None:
+    """Take the peak so far into every open block, before it is forgotten."""
+    global _forgotten_mb
+    peak = _remembered_mb()
+    _forgotten_mb = max(_forgotten_mb, peak)
+    for cost in _open:
+        cost.peak_memory_mb = max(cost.peak_memory_mb, peak)
+
+
+def _remembered_mb() -> float:
+    """Largest memory that the system remembers of this process, MB."""
     with suppress(OSError):
         for line in Path("/proc/self/status").read_text().splitlines():
             if line.startswith("VmHWM:"):
                 return float(line.split()[1]) / 1024
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return peak / 1024 if sys.platform != "darwin" else peak / 1024**2
-
-
-def _note_peak() -> None:
-    """Take the peak so far into every open block, before it is forgotten."""
-    peak = peak_memory_mb() if _open else 0.0
-    for cost in _open:
-        cost.peak_memory_mb = max(cost.peak_memory_mb, peak)

@@ -10,6 +10,7 @@ from foilstudy.study.kernel import Study
 MODULES = (
     "verification",
     "elements",
+    "convergence",
     "dynamics",
 )
 """Modules of this package that define a ``STUDY``."""

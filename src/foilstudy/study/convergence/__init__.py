@@ -1,1 +1,5 @@
-"""How the crumple, its energy and its stiffness depend on the mesh and on when it is stopped."""
+"""Convergence of the crumple with the mesh and with the residual: ``snakemake convergence``."""
+
+from foilstudy.study.convergence.plan import STUDY
+
+__all__ = ["STUDY"]

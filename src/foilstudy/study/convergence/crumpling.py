@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import resource
-import sys
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 
 import numpy as np
 
+from foilstudy.base.costs import measured as measured_cost
+from foilstudy.base.costs import peak_memory_mb
 from foilstudy.config.scene import material_of
 from foilstudy.linalg import SolveError
 from foilstudy.measure.stiffness import (
@@ -163,35 +162,27 @@ def _limit(crumple: Crumple, plain: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     return mesh_limit(levels, staggered)
 
 
-def run(name: str) -> dict:
-    """Crumple and measure the case of a name; every number of it, fit for JSON."""
-    case = Case.named(name)
+def run(case: Case) -> dict:
+    """Crumple and measure a case; every number of it."""
     crumple, numbers = settled(case)
     if numbers["status"] != "diverged":
         numbers |= measured(crumple)
-    return {"name": name, "seed": case.seed, "element": case.element} | numbers
+    return numbers
 
 
-def run_levels(name: str) -> list[dict]:
-    """Crumple the case of a name, then refine and relax it again to the finest size."""
-    crumple, numbers = settled(Case.named(name))
+def run_levels(case: Case) -> list[dict]:
+    """Crumple a case, then refine and relax it again to the finest size."""
+    crumple, numbers = settled(case)
     levels = [numbers | measured(crumple)]
     while numbers["status"] == "converged" and crumple.patch.size_along / 2 >= _REFINED_SIZE_MIN:
         crumple, numbers = settled_on(crumple.refined())
         levels.append(numbers | measured(crumple))
-    return [{"name": name, "level": k} | level for k, level in enumerate(levels)]
+    return [{"level": k} | level for k, level in enumerate(levels)]
 
 
 @contextmanager
 def _timed(numbers: dict, what: str) -> Iterator[None]:
     """Record the seconds on the clock and those of the processor, which a full machine spares."""
-    clock, processor = time.perf_counter(), time.process_time()
-    yield
-    numbers[f"seconds_{what}"] = time.perf_counter() - clock
-    numbers[f"cpu_seconds_{what}"] = time.process_time() - processor
-
-
-def peak_memory_mb() -> float:
-    """Largest memory of this process so far, MB."""
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return peak / 1024 if sys.platform != "darwin" else peak / 1024**2
+    with measured_cost() as cost:
+        yield
+    numbers[f"seconds_{what}"], numbers[f"cpu_seconds_{what}"] = cost.seconds, cost.cpu_seconds

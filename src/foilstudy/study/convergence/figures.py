@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from foilstudy.base.reference import EXPLICIT_CODE_ENERGIES, published
 from foilstudy.plot.style import (
     GREY,
     PAGE_WIDTH,
@@ -16,8 +17,7 @@ from foilstudy.plot.style import (
 )
 from foilstudy.study.convergence import plan
 from foilstudy.study.convergence.analysis import fit, means, slope
-from foilstudy.study.convergence.published import QEPH_2MM5_J, QEPH_5MM_J, RUNTIME_EXPONENT
-from foilstudy.study.convergence.records import Study
+from foilstudy.study.convergence.records import Findings
 
 _ELEMENTS = {"corner": "corner (default)", "one_point": "one point"}
 _COLOURS = {"corner": "#222222", "one_point": "#c44e52"}
@@ -39,7 +39,7 @@ def _size_axis(ax) -> None:
 
 
 @styled
-def energy(study: Study):
+def energy(study: Findings):
     """Strain energy of every crumple against element size, with fit and published values."""
     figure, panels = _panels()
     for ax, thickness in zip(panels, plan.THICKNESSES_UM, strict=True):
@@ -51,10 +51,10 @@ def energy(study: Study):
                 energies = [record["strain_energy"] for record in levels]
                 ax.plot(sizes, energies, ls=":", marker="^", color=GREY, label="refined, relaxed")
         if thickness == 500:
-            ax.plot(
-                [5] * len(QEPH_5MM_J) + [2.5], [*QEPH_5MM_J, QEPH_2MM5_J], ls="none",
-                marker="D", color=_OTHER, label="other code (QEPH)",
-            )  # fmt: skip
+            for size, energies in EXPLICIT_CODE_ENERGIES.items():
+                style = {"ls": "none", "marker": "D", "color": _OTHER}
+                label = "other code (QEPH)" if size == max(EXPLICIT_CODE_ENERGIES) else None
+                ax.plot([size] * len(energies), energies, **style, label=label)
         else:
             ax.set_yscale("log")
         _size_axis(ax)
@@ -78,7 +78,7 @@ def _energy_of(ax, study, thickness, element, label) -> None:
 
 
 @styled
-def stiffness(study: Study):
+def stiffness(study: Findings):
     """Stress-free stiffness on the crumple's own mesh and its limit for the same shape."""
     figure, panels = _panels()
     for ax, thickness in zip(panels, plan.THICKNESSES_UM, strict=True):
@@ -107,7 +107,7 @@ def _line(ax, ensemble, label, colour, index) -> None:
 
 
 @styled
-def stabilisation(study: Study):
+def stabilisation(study: Findings):
     """Share of the strain energy that only holds the in-plane checkerboard."""
     figure, ax = _panels(1)
     for index, thickness in enumerate(plan.THICKNESSES_UM):
@@ -124,10 +124,11 @@ def stabilisation(study: Study):
 
 
 @styled
-def run_time(study: Study):
+def run_time(study: Findings):
     """Time of a step, and of a whole crumple, against element size."""
     figure, (steps, whole) = _panels()
     colours = ordered_colours(len(plan.THICKNESSES_UM))
+    exponents = published().run_time_exponents
     for index, thickness in enumerate(plan.THICKNESSES_UM):
         rows = [row for row in study.timing if row["thickness_um"] == thickness]
         sizes = np.array([row["size_mm"] for row in rows])
@@ -135,9 +136,9 @@ def run_time(study: Study):
         exponent, _ = slope(sizes, seconds)
         steps.plot(sizes, 1e3 * seconds, marker=marker(index), color=colours[index],
                    label=f"{thickness} µm: slope {exponent:.2f}")  # fmt: skip
-        published = seconds[-1] * (sizes / sizes[-1]) ** RUNTIME_EXPONENT[thickness]
-        steps.plot(sizes, 1e3 * published, ls=":", color=colours[index],
-                   label=f"published slope {RUNTIME_EXPONENT[thickness]:g}")  # fmt: skip
+        expected = seconds[-1] * (sizes / sizes[-1]) ** exponents[thickness]
+        steps.plot(sizes, 1e3 * expected, ls=":", color=colours[index],
+                   label=f"published slope {exponents[thickness]:g}")  # fmt: skip
         relaxing = study.ensemble("cpu_seconds_relaxing", thickness)
         settling = study.ensemble("cpu_seconds_settling", thickness)
         total = {size: relaxing[size] + settling[size] for size in relaxing}
@@ -153,7 +154,7 @@ def run_time(study: Study):
 
 
 @styled
-def stops(study: Study):
+def stops(study: Findings):
     """How far the stiffness is from that at the last residual, by the residual of the stop."""
     figure, panels = _panels()
     quantities = {"static_stiffness": "stress-free", "prestressed_stiffness": "pre-stressed"}
@@ -178,12 +179,3 @@ def stops(study: Study):
     unique = dict(zip(labels, handles, strict=True))
     panels[0].legend(unique.values(), unique.keys(), fontsize=8.5)
     return figure
-
-
-FIGURES = {
-    "energy": energy,
-    "stiffness": stiffness,
-    "stabilisation": stabilisation,
-    "run_time": run_time,
-    "stops": stops,
-}

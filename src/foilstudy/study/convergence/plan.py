@@ -1,8 +1,10 @@
-"""Which crumples the convergence study makes: plain data, cheap to import by the workflow."""
+"""Which crumples the convergence study makes, and what is made of them."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+
+from foilstudy.study.kernel import Lazy, Part, Study
 
 SIZES_MM = (7.0, 5.0, 4.0, 2.5, 1.25)
 THICKNESSES_UM = (500, 50)
@@ -37,26 +39,6 @@ class Case:
     size_mm: float
     seed: int
 
-    @property
-    def name(self) -> str:
-        """For example ``corner_t50um_h170mm_1.25mm_0``."""
-        return (
-            f"{self.element}_t{self.thickness_um}um_h{self.height_mm}mm_{self.size_mm:g}mm"
-            f"_{self.seed}"
-        )
-
-    @classmethod
-    def named(cls, name: str) -> Case:
-        """The case of a name."""
-        element, thickness, height, size, seed = name.rsplit("_", 4)
-        return cls(
-            element,
-            int(thickness[1:-2]),
-            int(height[1:-2]),
-            float(size.removesuffix("mm")),
-            int(seed),
-        )
-
 
 def crumples() -> tuple[Case, ...]:
     """Every crumple on a mesh of its own."""
@@ -82,3 +64,35 @@ STOPPED = tuple(
 )
 """Crumples stopped at falling residuals."""
 STOPS = tuple(10.0**-k for k in range(1, 11))
+
+_HERE = "foilstudy.study.convergence"
+
+STUDY = Study(
+    name="convergence",
+    title="convergence of the crumple with the mesh and with the residual",
+    parts=(
+        Part(
+            "crumples",
+            crumples(),
+            Lazy(f"{_HERE}.crumpling:run"),
+            # the tangent of the finest mesh is what counts
+            memory_mb=lambda case: 6000 if case.size_mm < 2 else 3000,
+        ),
+        Part(
+            "levels", MULTILEVEL, Lazy(f"{_HERE}.crumpling:run_levels"), memory_mb=6000, priority=1
+        ),
+        Part("stops", STOPPED, Lazy(f"{_HERE}.stops:run_stops")),
+        # Last, when the machine is emptier: the least of several times, but shared caches count.
+        Part("timing", ("steps",), Lazy(f"{_HERE}.timing:run_timing"), priority=-1),
+    ),
+    findings=Lazy(f"{_HERE}.records:Findings.of"),
+    tables={
+        "convergence.csv": Lazy(f"{_HERE}.tables:crumples"),
+        "stops.csv": Lazy(f"{_HERE}.tables:stops"),
+        "convergence.md": Lazy(f"{_HERE}.tables:page"),
+    },
+    figures={
+        name: Lazy(f"{_HERE}.figures:{name}")
+        for name in ("energy", "stiffness", "stabilisation", "run_time", "stops")
+    },
+)

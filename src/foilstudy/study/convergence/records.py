@@ -1,19 +1,18 @@
-"""Reading back what the jobs of the convergence study have written."""
+"""What the records of the convergence study say."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
-from foilstudy.base.files import read_json
 from foilstudy.study.convergence import plan
+from foilstudy.study.kernel.files import Records
 
 
 @dataclass(frozen=True)
-class Study:
-    """All records.
+class Findings:
+    """All results.
 
     Attributes
     ----------
@@ -31,14 +30,13 @@ class Study:
     timing: list[dict]
 
     @classmethod
-    def read(cls, folder: Path) -> Study:
-        """Read what the jobs have written."""
-        return cls(
-            {case: read_json(folder / f"crumples/{case.name}.json") for case in plan.crumples()},
-            {case: read_json(folder / f"levels/{case.name}.json") for case in plan.MULTILEVEL},
-            {case: read_json(folder / f"stops/{case.name}.json") for case in plan.STOPPED},
-            read_json(folder / "timing.json"),
+    def of(cls, records: Records) -> Findings:
+        """From the records of a run."""
+        results = (
+            {case: record.result for case, record in records[part].items()}
+            for part in ("crumples", "levels", "stops")
         )
+        return cls(*results, timing=records["timing"]["steps"].result)
 
     def ensemble(
         self, key: str, thickness_um: int, element: str = "corner", index: int | None = None

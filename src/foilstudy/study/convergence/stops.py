@@ -15,15 +15,15 @@ from foilstudy.study.convergence.crumpling import RAMP_STEPS, STEPS_MAX, imperfe
 from foilstudy.study.convergence.plan import STOPS, Case
 
 
-def run_stops(name: str) -> list[dict]:
-    """Crumple the case of a name and measure it at every residual of the plan that it reaches."""
-    crumple = imperfect(Case.named(name))
+def run_stops(case: Case) -> list[dict]:
+    """Crumple a case and measure it at every residual of the plan that it reaches."""
+    crumple = imperfect(case)
     foil, sheet = crumple.foil, crumple.sheet(crumple.reference)
     scheme = crumpling_scheme(sheet)
     ramp = Ramp(foil.reference_height - foil.gap_height, RAMP_STEPS)
     points = relax(sheet, scheme, ramp, StoppingRule(np.inf, np.inf, 0)).points
     return [
-        {"name": name, "residual": residual} | _measured(crumple, sheet, shape)
+        {"residual": residual} | _measured(crumple, sheet, shape)
         for residual, shape in stopped_at(sheet, scheme, points, STOPS, STEPS_MAX)
     ]
 

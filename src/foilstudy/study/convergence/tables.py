@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import csv
-from collections.abc import Iterable, Sequence
-from pathlib import Path
+from collections.abc import Iterable
 
 import numpy as np
 
-from foilstudy.base.files import written_whole
+from foilstudy.base.reference import EXPLICIT_CODE_ENERGIES, published
+from foilstudy.base.tables import markdown_table
 from foilstudy.study.convergence import plan
 from foilstudy.study.convergence.analysis import fit, means, slope
-from foilstudy.study.convergence.published import QEPH_2MM5_J, QEPH_5MM_J, RUNTIME_EXPONENT
-from foilstudy.study.convergence.records import Study
+from foilstudy.study.convergence.records import Findings
 
 _COLUMNS = (
     "size_mm", "elements", "status", "strain_energy", "membrane_energy", "bending_energy",
@@ -22,76 +20,67 @@ _COLUMNS = (
 )  # fmt: skip
 _DIRECTIONS = ("axial", "radial")
 _PAIRS = {key for key in _COLUMNS if "stiffness" in key or "limit" in key}
+_STOP_COLUMNS = ("residual", "strain_energy", "negative_eigenvalues", "static_stiffness",
+                 "prestressed_stiffness")  # fmt: skip
 
 
-def write_crumples(study: Study, path: Path) -> None:
+def crumples(study: Findings) -> list[dict]:
     """One row per crumple and per level of the refined ones; J, N/m, s, MB."""
-    header = ["path", "element", "thickness_um", "height_mm", "asked_size_mm", "seed"]
-    for key in _COLUMNS:
-        header += [f"{key}_{d}" for d in _DIRECTIONS] if key in _PAIRS else [key]
-    rows = [("own mesh", case, record) for case, record in study.crumples.items()]
+    found = [("own mesh", case, record) for case, record in study.crumples.items()]
     for case, levels in study.levels.items():
-        rows += [(f"refined {record['level']} times", case, record) for record in levels]
-    _write(path, header, (_crumple_row(*row) for row in rows))
-
-
-def _crumple_row(kind: str, case: plan.Case, record: dict) -> list:
-    row = [kind, case.element, case.thickness_um, case.height_mm, case.size_mm, case.seed]
-    for key in _COLUMNS:
-        value = record.get(key)
-        if key in _PAIRS:
-            row += [_cell(v) for v in (value if value is not None else (None, None))]
-        else:
-            row.append(_cell(value))
-    return row
-
-
-def write_stops(study: Study, path: Path) -> None:
-    """One row per crumple and residual at which it was stopped; J, N/m."""
-    header = ["element", "thickness_um", "height_mm", "seed", "residual", "strain_energy",
-              "negative_eigenvalues"]  # fmt: skip
-    pairs = ("static_stiffness", "prestressed_stiffness")
-    header += [f"{key}_{d}" for key in pairs for d in _DIRECTIONS]
+        found += [(f"refined {record['level']} times", case, record) for record in levels]
     rows = []
-    for case, records in study.stops.items():
-        for record in records:
-            row = [case.element, case.thickness_um, case.height_mm, case.seed]
-            row += [_cell(record[key]) for key in header[4:7]]
-            rows.append(row + [_cell(v) for key in pairs for v in record[key]])
-    _write(path, header, rows)
+    for path, case, record in found:
+        row = {"path": path, "element": case.element, "thickness_um": case.thickness_um}
+        row |= {"height_mm": case.height_mm, "asked_size_mm": case.size_mm, "seed": case.seed}
+        rows.append(row | _cells(record, _COLUMNS))
+    return rows
 
 
-def _write(path: Path, header: Sequence[str], rows: Iterable[Sequence]) -> None:
-    with written_whole(path) as partial, partial.open("w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(header)
-        writer.writerows(rows)
+def stops(study: Findings) -> list[dict]:
+    """One row per crumple and residual at which it was stopped; J, N/m."""
+    return [
+        {"element": case.element, "thickness_um": case.thickness_um}
+        | {"height_mm": case.height_mm, "seed": case.seed}
+        | _cells(record, _STOP_COLUMNS)
+        for case, records in study.stops.items()
+        for record in records
+    ]
 
 
-def _cell(value) -> str:
-    if value is None or (isinstance(value, float) and not np.isfinite(value)):
-        return ""
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+def _cells(record: dict, columns: Iterable[str]) -> dict:
+    """Numbers of a record, directions apart; None where a crumple did not get so far."""
+    cells = {}
+    for key in columns:
+        if key in _PAIRS:
+            values = record.get(key, (None, None))
+            cells |= {f"{key}_{d}": v for d, v in zip(_DIRECTIONS, values, strict=True)}
+        else:
+            cells[key] = record.get(key)
+    return cells
 
 
-def write_markdown(study: Study, path: Path) -> None:
+def page(study: Findings) -> str:
     """What the study found, in Markdown."""
     parts = [_ensembles(study, thickness) for thickness in plan.THICKNESSES_UM]
-    parts += [_published(), _levels(study), _tall(study), _timing(study)]
-    with written_whole(path) as partial:
-        partial.write_text("\n".join(parts), encoding="utf-8")
+    parts += [_explicit_code(), _levels(study), _tall(study), _timing(study)]
+    return "\n".join(parts)
 
 
-def _ensembles(study: Study, thickness_um: int) -> str:
+def _ensembles(study: Findings, thickness_um: int) -> str:
+    heads = [
+        "element", "size, mm", "converged", "energy, J", "stabilisation", "axial, N/m",
+        "axial limit", "radial, N/m", "radial limit", "pre-stressed axial", "radial", "steps",
+        "CPU, s", "GB",
+    ]  # fmt: skip
+    rows = [
+        row for element in ("corner", "one_point") for row in _rows(study, thickness_um, element)
+    ]
     lines = [
         f"## {thickness_um} um, h_ref {plan.HEIGHT_MM} mm, each crumple on a mesh of its own\n",
         "Mean of the converged seeds and its standard error (scatter pooled over the sizes).\n",
-        "| element | size, mm | converged | energy, J | stabilisation | axial, N/m | axial limit | "
-        "radial, N/m | radial limit | pre-stressed axial | radial | steps | CPU, s | GB |",
-        "|" + "---|" * 14,
+        markdown_table(heads, rows).rstrip("\n"),
     ]
-    for element in ("corner", "one_point"):
-        lines += _ensemble_lines(study, thickness_um, element)
     for element in ("corner", "one_point"):
         fitted = fit(study.ensemble("strain_energy", thickness_um, element))
         lines.append(
@@ -101,7 +90,7 @@ def _ensembles(study: Study, thickness_um: int) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _ensemble_lines(study: Study, thickness_um: int, element: str) -> Iterable[str]:
+def _rows(study: Findings, thickness_um: int, element: str) -> Iterable[list[str]]:
     def pick(key, index=None):
         return study.ensemble(key, thickness_um, element, index)
 
@@ -120,49 +109,50 @@ def _ensemble_lines(study: Study, thickness_um: int, element: str) -> Iterable[s
         ]
         numbers += [f"{np.mean(pick('prestressed_stiffness', d)[size]):.4g}" for d in (0, 1)]
         cpu = pick("cpu_seconds_relaxing")[size] + pick("cpu_seconds_settling")[size]
-        yield (
-            f"| {element} | {size:g} | {len(energy[size])} of {len(asked)} | "
-            f"{mean[k]:.4g} +- {error[k]:.1g} | {np.mean(share[size] / energy[size]):.1%} | "
-            + " | ".join("-" if number == "nan" else number for number in numbers)
-            + f" | {np.mean(pick('steps')[size]):.0f} | {np.mean(cpu):.0f} | "
-            f"{np.max(pick('peak_memory_mb')[size]) / 1024:.2f} |"
-        )
+        yield [
+            element, f"{size:g}", f"{len(energy[size])} of {len(asked)}",
+            f"{mean[k]:.4g} +- {error[k]:.1g}", f"{np.mean(share[size] / energy[size]):.1%}",
+            *("-" if number == "nan" else number for number in numbers),
+            f"{np.mean(pick('steps')[size]):.0f}", f"{np.mean(cpu):.0f}",
+            f"{np.max(pick('peak_memory_mb')[size]) / 1024:.2f}",
+        ]  # fmt: skip
 
 
-def _published() -> str:
-    energies = ", ".join(f"{energy:g}" for energy in QEPH_5MM_J)
-    return (
-        f"Another code, with the published kind of element (QEPH), 500 um: {energies} J at 5 mm, "
-        f"{QEPH_2MM5_J:g} J at 2.5 mm.\n"
+def _explicit_code() -> str:
+    energies = ", ".join(
+        ", ".join(f"{value:g}" for value in values) + f" J at {size:g} mm"
+        for size, values in EXPLICIT_CODE_ENERGIES.items()
     )
+    return f"Another code, with the published kind of element (QEPH), 500 um: {energies}.\n"
 
 
-def _levels(study: Study) -> str:
-    lines = [
-        "## Crumpled at 5 mm, refined and relaxed again\n",
-        "| thickness, um | size, mm | energy, J | stabilisation | axial, radial, N/m | "
-        "pre-stressed | residual | negative | steps | tangents | CPU, s | GB |",
-        "|" + "---|" * 12,
-    ]
+def _levels(study: Findings) -> str:
+    heads = [
+        "thickness, um", "size, mm", "energy, J", "stabilisation", "axial, radial, N/m",
+        "pre-stressed", "residual", "negative", "steps", "tangents", "CPU, s", "GB",
+    ]  # fmt: skip
+    rows = []
     for case, levels in study.levels.items():
         for record in levels:
             cpu = record.get("cpu_seconds_relaxing", 0.0) + record.get("cpu_seconds_settling", 0.0)
             share = record["stabilisation_energy"] / record["strain_energy"]
-            lines.append(
-                f"| {case.thickness_um} | {record['size_mm']:.3g} | {record['strain_energy']:.4g} "
-                f"| {share:.1%} | {_pair(record['static_stiffness'])} "
-                f"| {_pair(record['prestressed_stiffness'])} | {record['residual']:.0e} "
-                f"| {record['negative_eigenvalues']} | {record['steps']} | {record['hessians']} "
-                f"| {cpu:.0f} | {record['peak_memory_mb'] / 1024:.2f} |"
-            )
-    return "\n".join(lines) + "\n"
+            rows.append(
+                [
+                    case.thickness_um, f"{record['size_mm']:.3g}", f"{record['strain_energy']:.4g}",
+                    f"{share:.1%}", _pair(record["static_stiffness"]),
+                    _pair(record["prestressed_stiffness"]), f"{record['residual']:.0e}",
+                    record["negative_eigenvalues"], record["steps"], record["hessians"],
+                    f"{cpu:.0f}", f"{record['peak_memory_mb'] / 1024:.2f}",
+                ]
+            )  # fmt: skip
+    return "## Crumpled at 5 mm, refined and relaxed again\n\n" + markdown_table(heads, rows)
 
 
 def _pair(values) -> str:
     return ", ".join(f"{value:.4g}" for value in values)
 
 
-def _tall(study: Study) -> str:
+def _tall(study: Findings) -> str:
     (record,) = [r for c, r in study.crumples.items() if c.height_mm == plan.TALL_HEIGHT_MM]
     seconds = record["cpu_seconds_relaxing"] + record.get("cpu_seconds_settling", 0.0)
     return (
@@ -175,8 +165,9 @@ def _tall(study: Study) -> str:
     )
 
 
-def _timing(study: Study) -> str:
+def _timing(study: Findings) -> str:
     lines = ["## Time of a step against element size\n"]
+    exponents = published().run_time_exponents
     for thickness in plan.THICKNESSES_UM:
         rows = [row for row in study.timing if row["thickness_um"] == thickness]
         exponent, error = slope(
@@ -188,6 +179,6 @@ def _timing(study: Study) -> str:
         )
         lines.append(
             f"{thickness} um: {times}; exponent {exponent:.2f} +- {error:.2f} "
-            f"(published {RUNTIME_EXPONENT[thickness]:g}).\n"
+            f"(published {exponents[thickness]:g}).\n"
         )
     return "\n".join(lines)

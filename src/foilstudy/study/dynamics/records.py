@@ -30,7 +30,7 @@ class Row:
     size : int
         Coordinates of the reduced model.
     seconds, peak_memory_mb : float
-        Processor time, and memory of the job so far.
+        Processor time and memory of the reduction.
     estimate : float
         Own estimate of the largest relative error.
     errors : ndarray, shape (3 definitions, frequencies)

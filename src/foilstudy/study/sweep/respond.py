@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import resource
-import sys
 import time
 import traceback
 from dataclasses import replace
@@ -11,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from foilstudy.base.costs import peak_memory_mb
 from foilstudy.base.outcome import USABLE
 from foilstudy.base.record import MACHINE_FAULTS, Quantity, read_record, write_record
 from foilstudy.config import ResponseTask
@@ -50,7 +49,7 @@ def respond(task: ResponseTask, crumple_path: Path, path: Path) -> None:
         except Exception as error:  # a study must survive any one realisation
             traceback.print_exc()
             status, message = "failed", f"{type(error).__name__}: {error}"
-    quantities["peak_memory"] = Quantity(_peak_memory_mb(), "MB", "peak memory of the job")
+    quantities["peak_memory"] = Quantity(peak_memory_mb(), "MB", "peak memory of the job")
     write_record(path, quantities, {"status": status, "message": message})
     print(_summary(quantities) if "static_stiffness" in quantities else f"{status}: {message}")
 
@@ -152,8 +151,3 @@ def _static_quantities(static: StaticCondensation, limit: tuple) -> dict[str, Qu
         ("interface_dof", "interface_dof_in"),
     )
     return quantities
-
-
-def _peak_memory_mb() -> float:
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return peak / 1024 if sys.platform != "darwin" else peak / 1024**2
