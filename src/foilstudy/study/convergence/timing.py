@@ -14,7 +14,7 @@ from foilstudy.study.convergence.plan import HEIGHT_MM, SIZES_MM, THICKNESSES_UM
 _STEPS, _REPEATS = 100, 7
 
 
-def run_timing(case: str = "steps") -> list[dict]:
+def run_timing(_: str) -> list[dict]:
     """Seconds per step of a ramp, the least of several, as a busy machine only adds."""
     return [
         {"thickness_um": thickness, "size_mm": size} | _timed(thickness, size)
