@@ -59,7 +59,7 @@ def test_names_of_every_study_lead_back_to_their_cases(study):
 def test_every_function_of_a_study_exists_and_needs_name_earlier_cases(study):
     functions = [*study.tables.values(), *study.figures.values(), study.findings, study.problems]
     for function in functions + [part.measure for part in study.parts]:
-        assert callable(function.function if isinstance(function, Lazy) else function)
+        assert callable(function.load() if isinstance(function, Lazy) else function)
     earlier = set()
     for part in study.parts:
         for case in part.by_name:
@@ -72,9 +72,11 @@ def test_two_cases_of_one_name_are_refused():
         Part("part", (Case("corner", 50), Case("corner", 50, 5.0)), len)
 
 
-def test_an_unknown_case_is_refused_by_name():
+def test_an_unknown_case_or_part_is_refused_by_name():
     with pytest.raises(KeyError, match="benchmarks has no case 'flatness-corner' but rigid"):
         STUDIES["verify"].part("benchmarks").case("flatness-corner")
+    with pytest.raises(KeyError, match="verify has no part 'records' but benchmarks"):
+        STUDIES["verify"].part("records")
 
 
 def test_the_plans_import_no_numerics():

@@ -41,10 +41,10 @@ def measure(
     records: Records = {name: {} for name in plan.needs}
     for other in (read_record(study, path) for path in needed):
         records[other.part][other.case] = other
-    # its import is no cost of the case
-    function = plan.measure.function if isinstance(plan.measure, Lazy) else plan.measure
+    if isinstance(plan.measure, Lazy):
+        plan.measure.load()  # which is no cost of the case
     with measured() as cost:
-        result = function(plan.case(case), **records)
+        result = plan.measure(plan.case(case), **records)
     record = Record(part, plan.case(case), asdict(result) if is_dataclass(result) else result, cost)
     write_record(study, record, path)
     return record

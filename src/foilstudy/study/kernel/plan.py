@@ -62,14 +62,13 @@ class Lazy:
     place: str
     arguments: tuple = ()
 
-    @cached_property
-    def function(self) -> Callable:
-        """The function itself."""
+    def load(self) -> Callable:
+        """Import the function."""
         module, name = self.place.split(":")
         return attrgetter(name)(import_module(module))
 
     def __call__(self, *arguments, **named):
-        return self.function(*arguments, *self.arguments, **named)
+        return self.load()(*arguments, *self.arguments, **named)
 
 
 @dataclass(frozen=True)
@@ -192,8 +191,17 @@ class Study:
         object.__setattr__(self, "folder", self.folder or self.name)
 
     def part(self, name: str) -> Part:
-        """The part of a name."""
-        return next(part for part in self.parts if part.name == name)
+        """The part of a name.
+
+        Raises
+        ------
+        KeyError
+            If there is none.
+        """
+        parts = {part.name: part for part in self.parts}
+        if name not in parts:
+            raise KeyError(f"{self.name} has no part {name!r} but {', '.join(parts)}")
+        return parts[name]
 
     def needed(self, part: Part, case: str) -> list[str]:
         """JSON of the records that a case takes, in the folder of the study."""
