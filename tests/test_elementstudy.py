@@ -9,7 +9,7 @@ import pytest
 from foilstudy.base.costs import Cost
 from foilstudy.base.tables import csv_text
 from foilstudy.model.patch import Patch, cylinder_control_points
-from foilstudy.model.shell.elements import DEFAULT_ELEMENT
+from foilstudy.model.shell.elements.corner import Corner
 from foilstudy.study.elements import STUDY, plan, summary
 from foilstudy.study.elements.bending import ring_error
 from foilstudy.study.elements.chart import draw
@@ -26,7 +26,7 @@ from foilstudy.study.kernel.files import read_records, write_record
 def test_the_workflow_lists_every_variant():
     assert plan.VARIANT_NAMES == tuple(VARIANTS)
     assert {DEFAULT, BASELINE} <= set(plan.VARIANT_NAMES)
-    assert VARIANTS[DEFAULT].element == DEFAULT_ELEMENT
+    assert VARIANTS[DEFAULT].element == Corner()
 
 
 @pytest.mark.parametrize("name", [DEFAULT, "corner_1_bend_4", "cas_1", "staggered_1"])
