@@ -31,7 +31,7 @@ from foilstudy.config import load_config  # noqa: E402
 from foilstudy.config.scene import foil_of, imperfection_of, patch_of  # noqa: E402
 from foilstudy.model.imperfection import imperfect_cylinder  # noqa: E402
 from foilstudy.model.patch import cylinder_control_points  # noqa: E402
-from foilstudy.model.shell.sheet_model import SheetModel  # noqa: E402
+from foilstudy.model.shell.shell import Shell  # noqa: E402
 from foilstudy.pipeline.scheme import crumpling_scheme  # noqa: E402
 from foilstudy.solve.relaxation import Ramp, StoppingRule, relax  # noqa: E402
 from foilstudy.solve.relaxation.spectral_mass import SpectralMass  # noqa: E402
@@ -75,7 +75,7 @@ def kernel_rows() -> list[tuple[str, str, str]]:
     task = study.crumple_task(study.cells()[0])
     foil, patch = foil_of(task), patch_of(task)
     reference = cylinder_control_points(patch, foil.diameter)
-    sheet = SheetModel(patch, reference, foil.material, foil.thickness)
+    sheet = Shell.elastic(patch, reference, foil.material, foil.thickness)
     points = reference + 1e-3 * np.random.default_rng(0).standard_normal(reference.shape)
     force = np.empty_like(points)
     mass = SpectralMass(sheet)
@@ -96,7 +96,7 @@ def crumple_rows(folder: Path) -> list[tuple[str, str, str]]:
     foil, patch = foil_of(task), patch_of(task)
     perfect = cylinder_control_points(patch, foil.diameter)
     reference = imperfect_cylinder(patch, perfect, foil, imperfection_of(task))
-    sheet = SheetModel(patch, reference, foil.material, foil.thickness)
+    sheet = Shell.elastic(patch, reference, foil.material, foil.thickness)
     ramp = Ramp(foil.reference_height - foil.gap_height, 2000)
     rule = StoppingRule(0.0, np.inf, 2000)
     seconds = median_seconds(lambda: relax(sheet, crumpling_scheme(sheet), ramp, rule))

@@ -18,9 +18,8 @@ from foilstudy.measure.stiffness import InterfaceSystem, Rings, condense  # noqa
 from foilstudy.model.foil import Foil, Imperfection, Material  # noqa: E402
 from foilstudy.model.imperfection import imperfect_cylinder  # noqa: E402
 from foilstudy.model.patch import Patch, cylinder_control_points  # noqa: E402
-from foilstudy.model.shell.elements import DEFAULT_ELEMENT  # noqa: E402
-from foilstudy.model.shell.sheet_model import SheetModel  # noqa: E402
-from foilstudy.model.shell.tangent import mass_matrix, stiffness_matrix  # noqa: E402
+from foilstudy.model.shell.shell import Shell  # noqa: E402
+from foilstudy.model.shell.tangent import mass_matrix  # noqa: E402
 from foilstudy.pipeline.scheme import RAMP_DAMPING, RELAXATION_DAMPING  # noqa: E402
 from foilstudy.solve.relaxation import Ramp, RelaxationResult, Scheme, StoppingRule, relax  # noqa: E402
 from foilstudy.solve.relaxation.damping import AdaptiveViscousDamping  # noqa: E402
@@ -38,12 +37,12 @@ def cylinder(
     material=FEP,
     thickness=THICKNESS,
     height=REFERENCE_HEIGHT,
-    element=DEFAULT_ELEMENT,
+    element=None,
 ):
     """Perfect cylinder as a sheet."""
     patch = Patch.for_cylinder(DIAMETER, height, element_size)
     points = cylinder_control_points(patch, DIAMETER)
-    return SheetModel(patch, points, material, thickness, element)
+    return Shell.elastic(patch, points, material, thickness, element)
 
 
 def imperfect_sheet(element_size, *, material=FEP, thickness=THICKNESS, seed=0):
@@ -53,7 +52,7 @@ def imperfect_sheet(element_size, *, material=FEP, thickness=THICKNESS, seed=0):
     imperfection = Imperfection("gaussian", 10e-6, 0.0, (seed, 500_000, 170_000))
     perfect = cylinder_control_points(patch, DIAMETER)
     points = imperfect_cylinder(patch, perfect, foil, imperfection)
-    return SheetModel(patch, points, material, thickness)
+    return Shell.elastic(patch, points, material, thickness)
 
 
 def relaxed(sheet, shortening, *, ramp_steps, steps_max, tolerance=1e-8, safety=1.5):
@@ -78,9 +77,9 @@ def rotation(axis, angle):
 class Crumple:
     """A crumpled equilibrium and the sheet that is stress-free in its shape."""
 
-    sheet: SheetModel
+    sheet: Shell
     result: RelaxationResult
-    stress_free: SheetModel
+    stress_free: Shell
     stiffness: InterfaceSystem
     mass: InterfaceSystem
 
@@ -96,14 +95,14 @@ def coarse_crumple() -> Crumple:
     result = relaxed(sheet, REFERENCE_HEIGHT - GAP_HEIGHT, ramp_steps=1000, steps_max=20000)
     assert result.status == "converged", result.message
     patch, points = sheet.patch, result.points
-    stress_free = SheetModel(patch, points, FEP, THICKNESS)
+    stress_free = Shell.elastic(patch, points, FEP, THICKNESS)
     rings = Rings.of(patch, points)
-    mass = mass_matrix(patch, FEP.density * THICKNESS * sheet.element_areas())
+    mass = mass_matrix(patch, FEP.density * THICKNESS * sheet.section.areas)
     return Crumple(
         sheet,
         result,
         stress_free,
-        InterfaceSystem.split(stiffness_matrix(stress_free), rings),
+        InterfaceSystem.split(stress_free.tangent(), rings),
         InterfaceSystem.split(mass, rings),
     )
 

@@ -38,7 +38,7 @@ from foilstudy.measure.dynamics.structure import INTERFACE, bordered
 from foilstudy.measure.stiffness import InterfaceSystem, fixed_stiffness
 from foilstudy.measure.stiffness.rings import interface_rigid_modes
 from foilstudy.model.foil import Foil
-from foilstudy.model.shell.elements import DEFAULT_ELEMENT
+from foilstudy.model.shell.elements.corner import Corner
 from foilstudy.pipeline.crumpled import Crumple
 from foilstudy.pipeline.structures import prestressed_structure, stress_free_structure
 from foilstudy.pipeline.vibration import dynamic_quantities
@@ -61,7 +61,7 @@ REDUCTIONS = {
 def crumple(coarse_crumple):
     foil = Foil(0.2, 0.17, 0.13, 500e-6, coarse_crumple.sheet.material)
     sheet = coarse_crumple.sheet
-    return Crumple(foil, sheet.patch, coarse_crumple.points, sheet.reference, DEFAULT_ELEMENT)
+    return Crumple(foil, sheet.patch, coarse_crumple.points, sheet.reference, Corner())
 
 
 @pytest.fixture(scope="module")
@@ -200,7 +200,7 @@ def perfect_cylinder(element_size):
     sheet = cylinder(element_size, material=material)
     foil = Foil(DIAMETER, REFERENCE_HEIGHT, GAP_HEIGHT, THICKNESS, material)
     return stress_free_structure(
-        Crumple(foil, sheet.patch, sheet.reference, sheet.reference, DEFAULT_ELEMENT)
+        Crumple(foil, sheet.patch, sheet.reference, sheet.reference, Corner())
     )
 
 
@@ -306,7 +306,7 @@ def test_rigid_motion_has_the_mass_of_the_foil(coarse_crumple, model):
     rigid = np.zeros((model.size, 6))
     rigid[:INTERFACE] = interface_rigid_modes(points[2, -2:].mean() - points[2, :2].mean())
     inertia = rigid.T @ model.mass @ rigid
-    total = coarse_crumple.sheet.element_areas().sum() * 2150.0 * 500e-6
+    total = coarse_crumple.sheet.section.areas.sum() * 2150.0 * 500e-6
     np.testing.assert_allclose(np.diag(inertia)[:3], total, rtol=1e-9)
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from foilstudy.base.files import read_json, write_json
 from foilstudy.model.foil import Foil
-from foilstudy.model.shell.elements import DEFAULT_ELEMENT
+from foilstudy.model.shell.elements.corner import Corner
 from foilstudy.pipeline.crumpled import Crumple
 from foilstudy.present.figures.registry import save
 from foilstudy.study.dynamics import measure, plan, records, tables
@@ -26,7 +26,7 @@ def study(coarse_crumple, tmp_path_factory):
     sheet = coarse_crumple.sheet
     foil = Foil(0.2, 0.17, 0.13, 500e-6, sheet.material)
     points = coarse_crumple.points
-    crumple = Crumple(foil, sheet.patch, points, sheet.reference, DEFAULT_ELEMENT)
+    crumple = Crumple(foil, sheet.patch, points, sheet.reference, Corner())
     folder = tmp_path_factory.mktemp("dynamics")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(measure, "read_crumple", lambda *_: crumple)

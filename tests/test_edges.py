@@ -6,8 +6,7 @@ from conftest import FEP, rotation
 
 from foilstudy.linalg import factorise
 from foilstudy.model.patch import Patch, cylinder_control_points, fitted_control_points, knot_points
-from foilstudy.model.shell.sheet_model import SheetModel
-from foilstudy.model.shell.tangent import stiffness_matrix
+from foilstudy.model.shell.shell import Shell
 from foilstudy.model.supports.edges import (
     RIGID_LINES,
     SIMPLY_SUPPORTED,
@@ -67,8 +66,8 @@ def on_edge(patch, field, edge, order=0):
 
 
 def bent_by(patch, points, held, load):
-    sheet = SheetModel(patch, points, FEP, THICKNESS)
-    stiffness = held.reduced_matrix(stiffness_matrix(sheet))
+    sheet = Shell.elastic(patch, points, FEP, THICKNESS)
+    stiffness = held.reduced_matrix(sheet.tangent())
     return held.displacement(factorise(stiffness).solve(held.reduced(load.force)))
 
 
@@ -217,8 +216,8 @@ def test_three_held_points_stop_a_free_plate_without_reactions():
     ]
     load = point_load(patch, points, (0, 0), np.zeros(3))
     stretched = bent_by(patch, points, held, type(load)(points, pull[0] + pull[1]))
-    sheet = SheetModel(patch, points, FEP, THICKNESS)
-    force = as_field(stiffness_matrix(sheet) @ as_vector(stretched), patch)
+    sheet = Shell.elastic(patch, points, FEP, THICKNESS)
+    force = as_field(sheet.tangent() @ as_vector(stretched), patch)
     np.testing.assert_allclose(force, pull[0] + pull[1], atol=1e-8)
 
 

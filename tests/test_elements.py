@@ -17,9 +17,12 @@ from wild_sheets import (
 
 from foilstudy.model.foil import Material
 from foilstudy.model.patch import Patch, fitted_control_points
-from foilstudy.model.shell.elements import Corner, OnePoint, Sampled, corner_kernel, sampling
-from foilstudy.model.shell.sheet_model import SheetModel
-from foilstudy.model.shell.tangent import mass_matrix, stiffness_matrix
+from foilstudy.model.shell.elements import corner_kernel, sampling
+from foilstudy.model.shell.elements.corner import Corner
+from foilstudy.model.shell.elements.one_point import OnePoint
+from foilstudy.model.shell.elements.sampled import Sampled
+from foilstudy.model.shell.shell import Shell
+from foilstudy.model.shell.tangent import mass_matrix
 from foilstudy.model.shell.yielding import von_mises_stress
 
 CHUNK = corner_kernel.CHUNK
@@ -73,7 +76,7 @@ def test_force_is_the_derivative_of_the_energy(element, make):
 def test_tangent_is_the_derivative_of_the_force(element, make, stressed):
     sheet = make(6, 3, Foil(element))
     points = wild_shape(sheet) if stressed else sheet.reference
-    matrix = stiffness_matrix(sheet, points if stressed else None)
+    matrix = sheet.tangent(points if stressed else None)
     rng = np.random.default_rng(4)
     for _ in range(2):
         direction = rng.standard_normal(points.shape)
@@ -93,7 +96,7 @@ def test_tangent_is_exactly_the_hessian_column_by_column(element, make):
     """Every column, so that no block of the sparse structure is missing or misplaced."""
     sheet = make(5, 2, Foil(element))
     points = wild_shape(sheet)
-    matrix = stiffness_matrix(sheet, points).toarray()
+    matrix = sheet.tangent(points).toarray()
     h = 1e-4 * sheet.patch.size_around
     for k in range(matrix.shape[0]):
         unit = unflat(np.eye(matrix.shape[0])[k], sheet.patch)
@@ -109,14 +112,14 @@ def test_tangent_is_exactly_the_hessian_column_by_column(element, make):
 @pytest.mark.parametrize("stressed", [True, False])
 def test_tangent_is_symmetric(element, stressed):
     sheet = wild_sheet(CHUNK + 1, foil=Foil(element))
-    matrix = stiffness_matrix(sheet, wild_shape(sheet) if stressed else None)
+    matrix = sheet.tangent(wild_shape(sheet) if stressed else None)
     assert abs(matrix - matrix.T).max() < 1e-13 * abs(matrix).max()
 
 
 @every_element
 def test_stressed_tangent_of_the_reference_is_the_stress_free_one(element):
     sheet = wild_sheet(7, foil=Foil(element))
-    at_rest, tangent = stiffness_matrix(sheet), stiffness_matrix(sheet, sheet.reference)
+    at_rest, tangent = sheet.tangent(), sheet.tangent(sheet.reference)
     assert abs(at_rest - tangent).max() < 1e-13 * abs(at_rest).max()
 
 
@@ -127,8 +130,8 @@ def test_stressed_tangent_of_the_reference_is_the_stress_free_one(element):
 @either_patch
 def test_vectorised_corner_is_the_general_one(around, make):
     sheet = make(around, foil=Foil(Corner()))
-    general = Sampled(sampling.corner(Corner().share(sheet)))
-    other = SheetModel(sheet.patch, sheet.reference, FEP, sheet.thickness, general)
+    general = Sampled(sampling.corner(Corner().share(sheet.section)))
+    other = Shell.elastic(sheet.patch, sheet.reference, FEP, sheet.thickness, general)
     points = wild_shape(sheet)
     force, expected = np.empty_like(points), np.empty_like(points)
     energies = sheet.force(points, force)
@@ -142,7 +145,7 @@ def test_vectorised_one_point_is_the_general_one(around, make):
     """But for the control, which is a difference in one and a derivative in the other."""
     sheet = make(around, foil=Foil(OnePoint(0.0)))
     general = Sampled(sampling.one_point(0.0))
-    other = SheetModel(sheet.patch, sheet.reference, FEP, sheet.thickness, general)
+    other = Shell.elastic(sheet.patch, sheet.reference, FEP, sheet.thickness, general)
     points = wild_shape(sheet)
     force, expected = np.empty_like(points), np.empty_like(points)
     energies = sheet.force(points, force)
@@ -155,7 +158,7 @@ def test_a_rotation_by_columns_changes_nothing(element):
     """No column is special: not the seam, not the border of a chunk."""
     sheet = wild_sheet(CHUNK + 3, foil=Foil(element))
     points = wild_shape(sheet)
-    turned = SheetModel(sheet.patch, np.roll(sheet.reference, 50, axis=2), FEP, 2e-3, element)
+    turned = Shell.elastic(sheet.patch, np.roll(sheet.reference, 50, axis=2), FEP, 2e-3, element)
     force = np.roll(force_of(sheet, points), 50, axis=2)
     shifted = force_of(turned, np.roll(points, 50, axis=2))
     np.testing.assert_allclose(shifted, force, rtol=0, atol=1e-12 * np.abs(force).max())
@@ -220,7 +223,7 @@ def test_everything_is_proportional_to_youngs_modulus(element):
     # a power of two, so that even the rounding is the same
     assert stiffer.energies(points).total == 4 * sheet.energies(points).total
     assert np.array_equal(force_of(stiffer, points), 4 * force_of(sheet, points))
-    assert (stiffness_matrix(stiffer, points) != 4 * stiffness_matrix(sheet, points)).nnz == 0
+    assert (stiffer.tangent(points) != 4 * sheet.tangent(points)).nnz == 0
     stress = von_mises_stress(sheet, points)
     np.testing.assert_allclose(von_mises_stress(stiffer, points), 4 * stress, rtol=1e-15)
 
@@ -234,7 +237,7 @@ def oblique_plate(element, thickness=1e-3):
     # linear in the parameters, so the spline has it exactly
     points = fitted_control_points(patch, lambda s, z: np.stack([s + 0.4 * z, z, 0 * s]))
     area = patch.elements_around * patch.elements_along * patch.size_around * patch.size_along
-    return SheetModel(patch, points, FEP, thickness, element), area
+    return Shell.elastic(patch, points, FEP, thickness, element), area
 
 
 def plate_energy(strain, stiffness):
@@ -280,7 +283,7 @@ def test_uniform_curvature_is_exact_on_an_oblique_grid(element, curvature):
         return np.stack([0 * s, 0 * s, 0.5 * np.einsum("arc,ab,brc->rc", x, k, x)])
 
     motion = fitted_control_points(patch, height)
-    matrix = stiffness_matrix(sheet)
+    matrix = sheet.tangent()
     force = matrix @ flat(motion)
     exact = area * plate_energy(k, modulus(sheet) * sheet.thickness**2 / 12)
     assert 0.5 * flat(motion) @ force == pytest.approx(exact, rel=1e-9)
@@ -301,13 +304,11 @@ def free_panel(element, elements, thickness):
     panel = fitted_control_points(
         patch, lambda s, z: np.stack([0.1 * np.cos(s / 0.1), 0.1 * np.sin(s / 0.1), z])
     )
-    return SheetModel(patch, panel, FEP, thickness, element)
+    return Shell.elastic(patch, panel, FEP, thickness, element)
 
 
 def zero_modes(element, slenderness):
-    values = np.linalg.eigvalsh(
-        stiffness_matrix(free_panel(element, 8, slenderness * SIDE / 8)).toarray()
-    )
+    values = np.linalg.eigvalsh(free_panel(element, 8, slenderness * SIDE / 8).tangent().toarray())
     zero = np.abs(values) < 1e-14 * values[-1]
     assert values[~zero].min() > 1e-10 * values[-1]  # a gap of orders, not a matter of the limit
     return zero.sum()
@@ -336,9 +337,9 @@ def test_elements_without_control_have_spurious_modes_at_free_edges(variant, cou
 def frequencies(element, elements, thickness, count=12):
     """Lowest elastic natural frequencies of the free panel, rad/s."""
     sheet = free_panel(element, elements, thickness)
-    mass = mass_matrix(sheet.patch, FEP.density * thickness * sheet.element_areas())
+    mass = mass_matrix(sheet.patch, FEP.density * thickness * sheet.section.areas)
     squares = eigh(
-        stiffness_matrix(sheet).toarray(), mass.toarray(), eigvals_only=True,
+        sheet.tangent().toarray(), mass.toarray(), eigvals_only=True,
         subset_by_index=(6, 5 + count),
     )  # fmt: skip
     return np.sqrt(squares)

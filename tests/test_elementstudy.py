@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from foilstudy.model.patch import Patch, cylinder_control_points
-from foilstudy.model.shell.elements import DEFAULT_ELEMENT
+from foilstudy.model.shell.elements.corner import Corner
 from foilstudy.study.elements import VARIANT_NAMES, records
 from foilstudy.study.elements.bending import ring_error
 from foilstudy.study.elements.chart import draw
@@ -20,7 +20,7 @@ from foilstudy.study.elements.variants import BASELINE, DEFAULT, VARIANTS
 def test_the_workflow_lists_every_variant():
     assert VARIANT_NAMES == tuple(VARIANTS)
     assert {DEFAULT, BASELINE} <= set(VARIANT_NAMES)
-    assert VARIANTS[DEFAULT].element == DEFAULT_ELEMENT
+    assert VARIANTS[DEFAULT].element == Corner()
 
 
 @pytest.mark.parametrize("name", [DEFAULT, "corner_1_bend_4", "cas_1", "staggered_1"])

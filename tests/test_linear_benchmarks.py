@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from conftest import FEP
 
-from foilstudy.model.shell.elements import DEFAULT_ELEMENT
+from foilstudy.model.shell.elements.corner import Corner
 from foilstudy.model.supports.edges import constraints, diaphragm
 from foilstudy.study.verification import frequencies, linear, stability, theory_cylinder
 from foilstudy.study.verification.candidates import CANDIDATES
@@ -34,7 +34,7 @@ def finest_errors(benchmark):
 
 
 def test_the_element_of_the_studies_is_under_test():
-    assert CORNER.element == DEFAULT_ELEMENT
+    assert CORNER.element == Corner()
 
 
 @both_elements
@@ -52,7 +52,7 @@ def test_straight_and_skewed_grids_cover_the_same_plate():
     sheets = [
         CORNER.sheet(patch, plate_points(patch, skewed), FEP, 1e-3) for skewed in (False, True)
     ]
-    areas = [sheet.element_areas() for sheet in sheets]
+    areas = [sheet.section.areas for sheet in sheets]
     assert areas[0].sum() == pytest.approx(1.0, rel=1e-12)
     assert areas[1].sum() == pytest.approx(1.0, rel=1e-3)
     assert np.ptp(areas[1]) > 0.5 * areas[0].mean()

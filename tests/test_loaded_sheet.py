@@ -6,7 +6,7 @@ from conftest import FEP, rotation
 
 from foilstudy.model.foil import Material
 from foilstudy.model.patch import Patch, fitted_control_points
-from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.shell import Shell
 from foilstudy.model.supports.edges import (
     PointHold,
     clamped,
@@ -31,7 +31,7 @@ def strip(along=12, across=2, material=NO_POISSON):
     """Flat strip from x = 0 to its end at the top edge."""
     patch = Patch(across, along, WIDTH / across, LENGTH / along, periodic=False)
     points = fitted_control_points(patch, lambda y, x: np.stack([x, y, np.zeros_like(x)]))
-    return SheetModel(patch, points, material, THICKNESS)
+    return Shell.elastic(patch, points, material, THICKNESS)
 
 
 def cantilever(load_at_end, along=12):
@@ -139,7 +139,7 @@ def test_an_edge_moment_needs_an_axis_about_which_the_edge_can_turn():
 
 def test_gradient_and_hessian_are_the_derivatives_of_the_potential():
     patch, points = dome()
-    sheet = SheetModel(patch, points, FEP, 0.01)
+    sheet = Shell.elastic(patch, points, FEP, 0.01)
     held = constraints(patch, {"bottom": clamped(patch, points, "bottom"), "left": symmetric(0)})
     loaded = LoadedSheet(sheet, held, EdgeMoment(patch, points, "top", np.array([3e3, 0, 0])), 0.7)
     rng = np.random.default_rng(2)
@@ -233,7 +233,7 @@ def test_a_plate_buckles_at_the_loads_of_kirchhoff():
     elements = 24
     patch = Patch(elements, elements, 1 / elements, 1 / elements, periodic=False)
     points = fitted_control_points(patch, lambda x, y: np.stack([x, y, np.zeros_like(x)]))
-    sheet = SheetModel(patch, points, FEP, 0.01)
+    sheet = Shell.elastic(patch, points, FEP, 0.01)
     holds = [PointHold((0.5, 0.5), 0), PointHold((0.5, 0.5), 1), PointHold((0.5, 1.0), 0)]
     held = constraints(patch, {e: diaphragm(2) for e in ("left", "right", "bottom", "top")}, holds)
     press = [

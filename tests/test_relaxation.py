@@ -17,8 +17,7 @@ from foilstudy.linalg import factorise
 from foilstudy.measure.stiffness import InterfaceSystem, Rings, condense
 from foilstudy.model.foil import Material
 from foilstudy.model.patch import RING_ROWS, Patch, cylinder_control_points
-from foilstudy.model.shell.sheet_model import SheetModel
-from foilstudy.model.shell.tangent import stiffness_matrix
+from foilstudy.model.shell.shell import Shell
 from foilstudy.solve.relaxation import Ramp, Scheme, StoppingRule, relax
 from foilstudy.solve.relaxation.damping import AdaptiveViscousDamping
 from foilstudy.solve.relaxation.spectral_mass import SpectralMass
@@ -65,7 +64,7 @@ def dense_mass(sheet, safety):
 @pytest.mark.parametrize("thickness", [1e-4, 2e-2])
 def test_spectral_solution_equals_the_dense_one(columns, along, thickness):
     patch = Patch(columns, along, np.pi * DIAMETER / columns, 0.03)
-    sheet = SheetModel(patch, cylinder_control_points(patch, DIAMETER), FEP, thickness)
+    sheet = Shell.elastic(patch, cylinder_control_points(patch, DIAMETER), FEP, thickness)
     momentum = np.random.default_rng(0).standard_normal((3, patch.rows - 4, columns))
     dense = dense_mass(sheet, SAFETY)
     expected = np.linalg.solve(dense, momentum.reshape(3, -1).T).T.reshape(momentum.shape)
@@ -77,7 +76,7 @@ def test_spectral_solution_equals_the_dense_one(columns, along, thickness):
 def largest_frequency_squared(sheet, safety, iterations=300):
     """Largest eigenvalue of M^-1 K by power iteration, from below."""
     rows, columns = sheet.patch.rows, sheet.patch.columns
-    stiffness = stiffness_matrix(sheet)
+    stiffness = sheet.tangent()
     mass = SpectralMass(sheet, safety)
     motion = np.zeros((3, rows, columns))
     motion[:, FREE] = np.random.default_rng(0).standard_normal(motion[:, FREE].shape)
@@ -161,7 +160,7 @@ def test_converged_means_a_small_residual_and_a_stable_equilibrium(coarse_crumpl
     assert residual == pytest.approx(result.residual, rel=1e-6)
     assert residual <= 1e-8
     assert result.kinetic_energy_ratio <= 1e-8
-    tangent = stiffness_matrix(coarse_crumple.sheet, result.points)
+    tangent = coarse_crumple.sheet.tangent(result.points)
     rings = Rings.of(coarse_crumple.sheet.patch, result.points)
     assert factorise(InterfaceSystem.split(tangent, rings).interior).negative_eigenvalues == 0
 
@@ -238,7 +237,7 @@ def test_symmetry_of_the_cylinder_carries_over_to_the_crumple(symmetry):
     deviation[:, FREE] = 1e-4 * np.random.default_rng(0).standard_normal(deviation[:, FREE].shape)
     shapes = []
     for reference in (perfect + deviation, symmetry(perfect + deviation)):
-        sheet = SheetModel(patch, reference, FEP, THICKNESS)
+        sheet = Shell.elastic(patch, reference, FEP, THICKNESS)
         scheme = Scheme(
             SpectralMass(sheet, SAFETY), AdaptiveViscousDamping(0.5), AdaptiveViscousDamping(0.25)
         )
@@ -263,7 +262,7 @@ def path(coarse_crumple):
         points[2, -RING_ROWS:] += multiple * step
         for _ in range(12):
             force = np.moveaxis(force_of(sheet, points), 0, -1).ravel()[rings.interior]
-            interior = InterfaceSystem.split(stiffness_matrix(sheet, points), rings).interior
+            interior = InterfaceSystem.split(sheet.tangent(points), rings).interior
             correction = factorise(interior).solve(-force)
             moved = np.zeros(points.size)
             moved[rings.interior] = correction
@@ -283,7 +282,7 @@ def richardson(values, step):
 def test_relaxation_has_found_the_equilibrium_that_newton_finds(coarse_crumple, path):
     _, states = path
     _, force, points = states[0]
-    tangent = stiffness_matrix(coarse_crumple.sheet, points)
+    tangent = coarse_crumple.sheet.tangent(points)
     rings = Rings.of(coarse_crumple.sheet.patch, points)
     assert np.abs(points - coarse_crumple.points).max() < 1e-6
     assert force == pytest.approx(coarse_crumple.result.history.reaction_force[-1], rel=1e-5)
@@ -303,5 +302,5 @@ def test_prestressed_stiffness_is_the_slope_of_the_reaction(coarse_crumple, path
     step, states = path
     slope = -richardson({k: state[1] for k, state in states.items()}, step)
     sheet, points = coarse_crumple.sheet, states[0][2]
-    tangent = InterfaceSystem.split(stiffness_matrix(sheet, points), Rings.of(sheet.patch, points))
+    tangent = InterfaceSystem.split(sheet.tangent(points), Rings.of(sheet.patch, points))
     assert condense(tangent).stiffness[8, 8] == pytest.approx(slope, rel=1e-5)

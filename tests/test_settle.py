@@ -15,8 +15,7 @@ from conftest import (
 
 from foilstudy.linalg import factorise
 from foilstudy.model.patch import RING_ROWS, Patch, cylinder_control_points
-from foilstudy.model.shell.sheet_model import SheetModel
-from foilstudy.model.shell.tangent import stiffness_matrix
+from foilstudy.model.shell.shell import Shell
 from foilstudy.pipeline.scheme import crumpling_scheme
 from foilstudy.solve.equilibrium.settle import HeldSheet, SettleOptions, settle, stopped_at
 from foilstudy.solve.relaxation import Ramp, Scheme, StoppingRule, relax
@@ -39,9 +38,7 @@ def relative_residual(sheet, points):
 
 def negative_eigenvalues(sheet, points):
     owned = 3 * RING_ROWS * sheet.patch.columns
-    return factorise(
-        stiffness_matrix(sheet, points)[owned:-owned, owned:-owned].tocsr()
-    ).negative_eigenvalues
+    return factorise(sheet.tangent(points)[owned:-owned, owned:-owned].tocsr()).negative_eigenvalues
 
 
 @pytest.fixture(scope="module")
@@ -110,7 +107,7 @@ def test_mirrored_sheet_settles_into_the_mirrored_crumple():
     deviation[:, FREE] = 1e-4 * np.random.default_rng(0).standard_normal(deviation[:, FREE].shape)
     shapes = []
     for reference in (perfect + deviation, mirrored(perfect + deviation)):
-        sheet = SheetModel(patch, reference, FEP, THICKNESS)
+        sheet = Shell.elastic(patch, reference, FEP, THICKNESS)
         start = relaxed(sheet, 10e-3, ramp_steps=300, steps_max=0).points
         result = settle(sheet, scheme(sheet), start)
         assert result.status == "converged", result.message

@@ -11,10 +11,11 @@ from wild_sheets import RADIUS, Foil, flat, force_of, wild_shape, wild_sheet
 
 from foilstudy.measure.stiffness.rings import rigid_motion
 from foilstudy.model.patch import Patch, refine
-from foilstudy.model.shell.elements import Corner, OnePoint
+from foilstudy.model.shell.elements.corner import Corner
+from foilstudy.model.shell.elements.one_point import OnePoint
 from foilstudy.model.shell.elements.one_point_kernel import CHUNK
-from foilstudy.model.shell.sheet_model import SheetModel
-from foilstudy.model.shell.tangent import mass_matrix, stiffness_matrix
+from foilstudy.model.shell.shell import Shell
+from foilstudy.model.shell.tangent import mass_matrix
 from foilstudy.model.shell.yielding import beyond_yield_share, von_mises_stress
 
 CHUNK_EDGES = (5, CHUNK - 1, CHUNK, CHUNK + 1, CHUNK + 2, 2 * CHUNK, 2 * CHUNK + 1)
@@ -148,13 +149,13 @@ def test_force_is_the_derivative_of_the_energy_at_every_control_point():
 def test_a_patch_too_narrow_for_the_stencil_is_refused():
     sheet = wild_sheet(4)
     with pytest.raises(ValueError, match="at least 5 elements around, not 4"):
-        stiffness_matrix(sheet)
+        sheet.tangent()
 
 
 def test_points_of_another_patch_are_refused():
     sheet = wild_sheet(5)
     with pytest.raises(ValueError, match="the patch needs"):
-        SheetModel(sheet.patch, sheet.reference[:, 1:], FEP, 1e-3)
+        Shell.elastic(sheet.patch, sheet.reference[:, 1:], FEP, 1e-3)
 
 
 # --- closed forms --------------------------------------------------------------------------------
@@ -166,7 +167,7 @@ ELEMENTS = pytest.mark.parametrize("element", [Corner(), OnePoint()], ids=lambda
 def made_of(element, size, thickness=THICKNESS):
     """Perfect cylinder of another element."""
     sheet = cylinder(size, thickness=thickness)
-    return SheetModel(sheet.patch, sheet.reference, FEP, thickness, element)
+    return Shell.elastic(sheet.patch, sheet.reference, FEP, thickness, element)
 
 
 def stretched(sheet, hoop=1.0, axial=1.0):
@@ -196,7 +197,7 @@ def test_axial_stretch(element):
         sheet = made_of(element, size)
         energies = sheet.energies(stretched(sheet, axial=1.1))
         exact = 0.5 * modulus(sheet) * strain**2
-        assert energies.membrane == pytest.approx(exact * sheet.element_areas().sum(), rel=1e-12)
+        assert energies.membrane == pytest.approx(exact * sheet.section.areas.sum(), rel=1e-12)
         assert energies.stabilisation < 1e-25 * energies.membrane
         errors.append(energies.membrane / (exact * sheet_area()) - 1)
     # the control radius makes the area exact to fourth order (test_patch)
@@ -284,7 +285,7 @@ def test_exact_refinement_of_a_smooth_shape_converges(element):
     energies = []
     patch, reference = sheet.patch, sheet.reference
     for _ in range(4):
-        model = SheetModel(patch, reference, FEP, 5e-3, element)
+        model = Shell.elastic(patch, reference, FEP, 5e-3, element)
         energies.append(model.energies(points).membrane)
         patch, reference, points = patch.refined(), refine(reference), refine(points)
     np.testing.assert_allclose(rates(np.diff(energies)), 2.0, atol=0.1)
@@ -344,7 +345,7 @@ def test_share_beyond_yield_is_a_share_of_area():
 
 def cylinder_mass(size):
     sheet = cylinder(size)
-    masses = FEP.density * THICKNESS * sheet.element_areas()
+    masses = FEP.density * THICKNESS * sheet.section.areas
     return sheet, masses, mass_matrix(sheet.patch, masses)
 
 

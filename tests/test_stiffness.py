@@ -15,9 +15,9 @@ from foilstudy.measure.stiffness import (
 from foilstudy.measure.stiffness.rings import interface_rigid_modes, rigid_motion
 from foilstudy.model.foil import Material
 from foilstudy.model.patch import refine
-from foilstudy.model.shell.elements import Corner, OnePoint
-from foilstudy.model.shell.sheet_model import SheetModel
-from foilstudy.model.shell.tangent import stiffness_matrix
+from foilstudy.model.shell.elements.corner import Corner
+from foilstudy.model.shell.elements.one_point import OnePoint
+from foilstudy.model.shell.shell import Shell
 
 RADIUS = DIAMETER / 2
 LENGTHS = np.diag(np.tile([1.0, 1.0, 1.0, 1 / RADIUS, 1 / RADIUS, 1 / RADIUS], 2))
@@ -26,7 +26,7 @@ LENGTHS = np.diag(np.tile([1.0, 1.0, 1.0, 1 / RADIUS, 1 / RADIUS, 1 / RADIUS], 2
 
 def condensed(sheet):
     rings = Rings.of(sheet.patch, sheet.reference)
-    return condense(InterfaceSystem.split(stiffness_matrix(sheet), rings)).stiffness
+    return condense(InterfaceSystem.split(sheet.tangent(), rings)).stiffness
 
 
 def ring_distance(points):
@@ -35,7 +35,7 @@ def ring_distance(points):
 
 def test_stiffness_matrix_does_not_resist_rigid_motion(coarse_crumple):
     sheet = coarse_crumple.stress_free
-    matrix = stiffness_matrix(sheet)
+    matrix = sheet.tangent()
     arms = np.moveaxis(sheet.reference, 0, -1).reshape(-1, 3) / RADIUS
     force = matrix @ rigid_motion(arms)
     # rounding of the sums over a row
@@ -51,7 +51,7 @@ def test_constraint_modes_are_in_equilibrium(coarse_crumple, coarse_static):
 def test_condensation_equals_the_dense_schur_complement():
     sheet = cylinder(25e-3)
     rings = Rings.of(sheet.patch, sheet.reference)
-    matrix = stiffness_matrix(sheet).toarray()
+    matrix = sheet.tangent().toarray()
     moved = np.zeros((matrix.shape[0], 12))
     moved[rings.boundary] = rings.motion
     free = np.ix_(rings.interior, rings.interior)
@@ -90,7 +90,7 @@ def test_interface_motions_are_named_in_order():
 
 def test_stiffness_is_proportional_to_youngs_modulus(coarse_crumple, coarse_static):
     stiff = Material(4 * FEP.youngs_modulus, FEP.poisson_ratio, FEP.density, FEP.yield_stress)
-    sheet = SheetModel(coarse_crumple.sheet.patch, coarse_crumple.points, stiff, THICKNESS)
+    sheet = Shell.elastic(coarse_crumple.sheet.patch, coarse_crumple.points, stiff, THICKNESS)
     # to the last bit for a power of two
     assert np.array_equal(condensed(sheet), 4 * coarse_static.stiffness)
 
@@ -99,7 +99,7 @@ def test_stiffness_scales_with_size():
     """Ten times everything: ten times the translational stiffness."""
     small = cylinder(20e-3)
     patch = small.patch
-    large = SheetModel(
+    large = Shell.elastic(
         type(patch)(patch.elements_around, patch.elements_along, 10 * patch.size_around,
                     10 * patch.size_along),
         10 * small.reference, FEP, 10 * THICKNESS,
@@ -113,7 +113,7 @@ def test_stiffness_scales_with_size():
 
 def test_prestress_free_tangent_gives_the_stress_free_stiffness(coarse_crumple, coarse_static):
     sheet = coarse_crumple.stress_free
-    tangent = stiffness_matrix(sheet, sheet.reference)
+    tangent = sheet.tangent(sheet.reference)
     rings = Rings.of(sheet.patch, sheet.reference)
     stiffness = condense(InterfaceSystem.split(tangent, rings)).stiffness
     scale = np.abs(coarse_static.stiffness).max()
@@ -188,7 +188,7 @@ def test_cylinder_stiffness_converges_at_first_order(element):
     sheet = cylinder(20e-3, thickness=5e-3, element=element)
     patch, points, values = sheet.patch, sheet.reference, []
     for _ in range(4):
-        values.append(fixed_stiffness(condensed(SheetModel(patch, points, FEP, 5e-3, element))))
+        values.append(fixed_stiffness(condensed(Shell.elastic(patch, points, FEP, 5e-3, element))))
         patch, points = patch.refined(), refine(points)
     steps = -np.diff(values, axis=0)
     assert (steps > 0).all()  # from above

@@ -11,7 +11,6 @@ from foilstudy.export.contents import surface_grid
 from foilstudy.measure.dynamics import HintzHerting
 from foilstudy.measure.stiffness import InterfaceSystem, Rings, condense, fixed_stiffness
 from foilstudy.model.patch import knot_points
-from foilstudy.model.shell.tangent import stiffness_matrix
 from foilstudy.pipeline.crumpled import Crumple
 from foilstudy.pipeline.structures import stress_free_structure
 from foilstudy.pipeline.surface import Limits, SurfaceGrid, read_grid, sheet_from_grid
@@ -33,7 +32,7 @@ def dented(rows, columns, depth=DEPTH):
 
 
 def static(crumple):
-    matrix = stiffness_matrix(crumple.sheet(crumple.points))
+    matrix = crumple.sheet(crumple.points).tangent()
     rings = Rings.of(crumple.patch, crumple.points)
     return fixed_stiffness(condense(InterfaceSystem.split(matrix, rings)).stiffness)
 
@@ -97,7 +96,7 @@ def test_cylinder_from_points_is_as_stiff_as_the_cylinder():
     rows, columns = ours.patch.elements_along + 1, ours.patch.columns
     read = sheet(dented(rows, columns, depth=0.0))
     assert read.patch.elements_around == columns and read.patch.elements_along == rows - 1
-    system = InterfaceSystem.split(stiffness_matrix(ours), Rings.of(ours.patch, ours.reference))
+    system = InterfaceSystem.split(ours.tangent(), Rings.of(ours.patch, ours.reference))
     np.testing.assert_allclose(static(read), fixed_stiffness(condense(system).stiffness), rtol=2e-3)
 
 

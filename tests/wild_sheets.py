@@ -9,8 +9,9 @@ from conftest import DIAMETER, FEP, rotation
 
 from foilstudy.model.foil import Material
 from foilstudy.model.patch import Patch, cylinder_control_points, fitted_control_points
-from foilstudy.model.shell.elements import DEFAULT_ELEMENT, Element
-from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.elements.corner import Corner
+from foilstudy.model.shell.elements.protocol import Element
+from foilstudy.model.shell.shell import Shell
 
 RADIUS = DIAMETER / 2
 
@@ -19,7 +20,7 @@ RADIUS = DIAMETER / 2
 class Foil:
     """What a wild sheet is made of."""
 
-    element: Element = DEFAULT_ELEMENT
+    element: Element = Corner()
     material: Material = FEP
     thickness: float = 2e-3
 
@@ -54,7 +55,7 @@ def _wrinkled(patch, points, foil):
     rng = np.random.default_rng(patch.elements_around)
     points = points + 0.1 * patch.size_around * rng.standard_normal(patch.shape)
     foil = foil or Foil()
-    return SheetModel(patch, points, foil.material, foil.thickness, foil.element)
+    return Shell.elastic(patch, points, foil.material, foil.thickness, foil.element)
 
 
 def wild_shape(sheet, seed=7):

@@ -25,9 +25,10 @@ from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.model.imperfection import imperfect_cylinder
 from foilstudy.model.materials import MATERIALS
 from foilstudy.model.patch import Patch, cylinder_control_points
-from foilstudy.model.shell.elements import DEFAULT_ELEMENT, ELEMENTS, STAGGERED
-from foilstudy.model.shell.sheet_model import SheetModel
-from foilstudy.model.shell.tangent import stiffness_matrix
+from foilstudy.model.shell.elements import ELEMENTS
+from foilstudy.model.shell.elements.corner import Corner
+from foilstudy.model.shell.elements.sampled import STAGGERED
+from foilstudy.model.shell.shell import Shell
 from foilstudy.pipeline.crumpled import Crumple
 from foilstudy.pipeline.scheme import crumpling_scheme
 from foilstudy.solve.equilibrium.settle import SettleOptions, settle
@@ -60,7 +61,7 @@ def imperfect(case: Case) -> Crumple:
     imperfection = Imperfection("smoothed", _AMPLITUDE, _CORRELATION, stream)
     perfect = cylinder_control_points(patch, foil.diameter)
     reference = imperfect_cylinder(patch, perfect, foil, imperfection)
-    return Crumple(foil, patch, reference, reference, ELEMENTS[case.element])
+    return Crumple(foil, patch, reference, reference, ELEMENTS[case.element]())
 
 
 def settled(case: Case) -> tuple[Crumple, dict]:
@@ -91,7 +92,7 @@ def settled_on(crumple: Crumple) -> tuple[Crumple, dict]:
 
 
 def _settle(
-    sheet: SheetModel, scheme, points: np.ndarray, options: SettleOptions, numbers: dict
+    sheet: Shell, scheme, points: np.ndarray, options: SettleOptions, numbers: dict
 ) -> np.ndarray:
     with _timed(numbers, "settling"):
         result = settle(sheet, scheme, points, options)
@@ -131,11 +132,11 @@ def measured(crumple: Crumple) -> dict:
 def stress_free(crumple: Crumple) -> np.ndarray:
     """Axial and radial stiffness with the crumpled shape free of stress, N/m."""
     rings = Rings.of(crumple.patch, crumple.points)
-    system = InterfaceSystem.split(stiffness_matrix(crumple.sheet(crumple.points)), rings)
+    system = InterfaceSystem.split(crumple.sheet(crumple.points).tangent(), rings)
     return fixed_stiffness(condense(system).stiffness)
 
 
-def _prestressed(sheet: SheetModel, points: np.ndarray) -> np.ndarray:
+def _prestressed(sheet: Shell, points: np.ndarray) -> np.ndarray:
     try:
         return prestressed_stiffness(sheet, points)
     except SolveError as error:
@@ -150,7 +151,7 @@ def _limit(crumple: Crumple, plain: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     published results, which have no limit.
     """
     levels, fine, staggered = [plain], crumple, np.full(2, np.nan)
-    if crumple.element is not DEFAULT_ELEMENT:
+    if crumple.element != Corner():
         return staggered, staggered
     size = crumple.patch.size_along
     while size / 2 >= _REFINED_SIZE_MIN and len(levels) <= _REFINEMENTS_MAX:

@@ -6,7 +6,7 @@ import numpy as np
 
 from foilstudy.linalg import SolveError, factorise
 from foilstudy.measure.stiffness import prestressed_stiffness
-from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.shell import Shell
 from foilstudy.pipeline.crumpled import Crumple
 from foilstudy.pipeline.scheme import crumpling_scheme
 from foilstudy.solve.equilibrium.settle import HeldSheet, stopped_at
@@ -28,7 +28,7 @@ def run_stops(name: str) -> list[dict]:
     ]
 
 
-def _measured(crumple: Crumple, sheet: SheetModel, points: np.ndarray) -> dict:
+def _measured(crumple: Crumple, sheet: Shell, points: np.ndarray) -> dict:
     held = HeldSheet(sheet, points)
     tangent = held.hessian(held.unknowns(points))
     try:

@@ -6,8 +6,8 @@ import numpy as np
 from scipy.linalg import eigh
 
 from foilstudy.model.patch import Patch, cylinder_control_points
-from foilstudy.model.shell.sheet_model import SheetModel
-from foilstudy.model.shell.tangent import mass_matrix, stiffness_matrix
+from foilstudy.model.shell.shell import Shell
+from foilstudy.model.shell.tangent import mass_matrix
 from foilstudy.solve.paths.path import follow_load
 from foilstudy.study.elements.variants import Variant
 from foilstudy.study.verification.candidates import Candidate
@@ -40,10 +40,10 @@ def ring_error(variant: Variant, slenderness: float) -> float:
     thickness = slenderness * size
     patch = Patch(_AROUND, _ALONG, size, _LENGTH / _ALONG)
     points = cylinder_control_points(patch, 2 * _RADIUS)
-    sheet = SheetModel(patch, points, FOIL, thickness, variant.element)
+    sheet = Shell.elastic(patch, points, FOIL, thickness, variant.element)
     cylinder = Cylinder(_RADIUS, _LENGTH, thickness, FOIL)
-    mass = mass_matrix(patch, FOIL.density * thickness * sheet.element_areas())
-    eigenvalues, shapes = eigh(stiffness_matrix(sheet).toarray(), mass.toarray())
+    mass = mass_matrix(patch, FOIL.density * thickness * sheet.section.areas)
+    eigenvalues, shapes = eigh(sheet.tangent().toarray(), mass.toarray())
     orders = circumferential_orders(patch, points, shapes)
     errors = []
     for n in _ORDERS:

@@ -15,7 +15,7 @@ import numpy as np
 
 from foilstudy.linalg import SolveError
 from foilstudy.model.patch import Patch, fitted_control_points, refine
-from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.shell import Shell
 from foilstudy.model.supports.edges import RIGID_LINES, Constraints, constraints, symmetric
 from foilstudy.model.supports.loads import DeadLoad
 from foilstudy.solve.equilibrium.newton import NewtonOptions, NewtonResult, minimise
@@ -106,7 +106,7 @@ def _surface(around: np.ndarray, along: np.ndarray) -> np.ndarray:
     return np.stack([radius * np.cos(angle), radius * np.sin(angle), along])
 
 
-def _panel(variant: Variant, level: int) -> tuple[SheetModel, Constraints]:
+def _panel(variant: Variant, level: int) -> tuple[Shell, Constraints]:
     """The stress-free panel and what holds it."""
     around, along = level * _AROUND, level * _ALONG
     patch = Patch(around, along, np.pi / 2 * RADIUS / around, HEIGHT / along, periodic=False)
@@ -120,11 +120,11 @@ def _panel(variant: Variant, level: int) -> tuple[SheetModel, Constraints]:
         "left": symmetric(1),
         "right": symmetric(0),
     }
-    sheet = SheetModel(patch, points, FOIL, THICKNESS, variant.element)
+    sheet = Shell.elastic(patch, points, FOIL, THICKNESS, variant.element)
     return sheet, constraints(patch, edges)
 
 
-def _shortened(sheet: SheetModel, held: Constraints, shortening: float) -> LoadedSheet:
+def _shortened(sheet: Shell, held: Constraints, shortening: float) -> LoadedSheet:
     """The panel with its top ring lowered; unknowns count from an even shortening."""
     share = np.clip(sheet.reference[2].mean(axis=1) / HEIGHT, 0.0, 1.0)
     share[:2], share[-2:] = 0.0, 1.0

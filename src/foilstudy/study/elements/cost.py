@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from foilstudy.model.patch import Patch, cylinder_control_points
-from foilstudy.model.shell.elements import Element
-from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.elements.protocol import Element
+from foilstudy.model.shell.shell import Shell
 from foilstudy.study.elements.scene import COARSE, DIAMETER, REFERENCE_HEIGHT
 from foilstudy.study.elements.variants import BASELINE, VARIANTS
 from foilstudy.study.verification.frequencies import FOIL
@@ -58,7 +58,7 @@ def _timed(element: Element):
     """A function that returns the seconds per element of one force evaluation."""
     patch = Patch.for_cylinder(DIAMETER, REFERENCE_HEIGHT, COARSE)
     points = cylinder_control_points(patch, DIAMETER)
-    sheet = SheetModel(patch, points, FOIL, _THICKNESS, element)
+    sheet = Shell.elastic(patch, points, FOIL, _THICKNESS, element)
     force = np.empty_like(points)
     elements = patch.elements_around * patch.elements_along
 

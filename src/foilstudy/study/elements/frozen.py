@@ -9,8 +9,7 @@ import numpy as np
 from foilstudy.linalg import SolveError
 from foilstudy.measure.stiffness import InterfaceSystem, Rings, condense, fixed_stiffness
 from foilstudy.model.patch import Patch, refine
-from foilstudy.model.shell.sheet_model import SheetModel
-from foilstudy.model.shell.tangent import stiffness_matrix
+from foilstudy.model.shell.shell import Shell
 from foilstudy.study.elements.scene import COARSE, DIAMETER, REFERENCE_HEIGHT, crumple
 from foilstudy.study.elements.variants import DEFAULT, VARIANTS, Variant
 from foilstudy.study.verification.frequencies import FOIL
@@ -68,8 +67,8 @@ def stiffness_of(
     variant: Variant, patch: Patch, points: np.ndarray, thickness: float
 ) -> np.ndarray:
     """Axial and radial stiffness of a shape taken as stress-free, N/m."""
-    sheet = SheetModel(patch, points, FOIL, thickness, variant.element)
-    system = InterfaceSystem.split(stiffness_matrix(sheet), Rings.of(patch, points))
+    sheet = Shell.elastic(patch, points, FOIL, thickness, variant.element)
+    system = InterfaceSystem.split(sheet.tangent(), Rings.of(patch, points))
     return fixed_stiffness(condense(system).stiffness)
 
 

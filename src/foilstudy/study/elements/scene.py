@@ -7,8 +7,8 @@ import numpy as np
 from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.model.imperfection import imperfect_cylinder
 from foilstudy.model.patch import Patch, cylinder_control_points
-from foilstudy.model.shell.elements import Element
-from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.elements.protocol import Element
+from foilstudy.model.shell.shell import Shell
 from foilstudy.pipeline.scheme import crumpling_scheme
 from foilstudy.solve.relaxation import Ramp, RelaxationResult, StoppingRule, relax
 from foilstudy.study.verification.frequencies import FOIL
@@ -30,7 +30,7 @@ def micrometres(thickness: float) -> int:
 
 def crumple(
     element: Element, size: float, thickness: float, seed: int, steps_max: int = _STEPS_MAX
-) -> tuple[SheetModel, RelaxationResult]:
+) -> tuple[Shell, RelaxationResult]:
     """Crumple the foil on a mesh and relax it to a residual of 1e-3.
 
     Parameters
@@ -52,7 +52,7 @@ def crumple(
     reference = imperfect_cylinder(
         patch, cylinder_control_points(patch, DIAMETER), foil, imperfection
     )
-    sheet = SheetModel(patch, reference, FOIL, thickness, element)
+    sheet = Shell.elastic(patch, reference, FOIL, thickness, element)
     ramp = Ramp(REFERENCE_HEIGHT - GAP_HEIGHT, _RAMP_STEPS)
     rule = StoppingRule(_RESIDUAL, np.inf, steps_max)
     return sheet, relax(sheet, crumpling_scheme(sheet), ramp, rule)

@@ -16,7 +16,7 @@ from foilstudy.model.imperfection import imperfect_cylinder
 from foilstudy.model.patch import RING_ROWS, Patch, cylinder_control_points, knot_points
 from foilstudy.model.shell.elements import ELEMENTS
 from foilstudy.model.shell.intersection import self_crossing_share
-from foilstudy.model.shell.sheet_model import Energies, SheetModel
+from foilstudy.model.shell.shell import Energies, Shell
 from foilstudy.model.shell.yielding import beyond_yield_share
 from foilstudy.pipeline.scheme import crumpling_scheme
 from foilstudy.solve.equilibrium.settle import SettleOptions, SettleResult, settle
@@ -69,12 +69,12 @@ class _Outcome:
         return self.settled or self.relaxed
 
 
-def _crumpled(task: CrumpleTask) -> tuple[SheetModel, _Outcome]:
+def _crumpled(task: CrumpleTask) -> tuple[Shell, _Outcome]:
     foil, patch, options = foil_of(task), patch_of(task), task.relaxation
     perfect = cylinder_control_points(patch, foil.diameter)
     reference = imperfect_cylinder(patch, perfect, foil, imperfection_of(task))
-    element = ELEMENTS[task.mesh.element]
-    sheet = SheetModel(patch, reference, foil.material, foil.thickness, element)
+    element = ELEMENTS[task.mesh.element]()
+    sheet = Shell.elastic(patch, reference, foil.material, foil.thickness, element)
     scheme = crumpling_scheme(sheet)
     settling = SettleOptions(
         options.residual_tolerance, relaxation_steps_max=options.relaxation_steps_max
@@ -92,7 +92,7 @@ def _crumpled(task: CrumpleTask) -> tuple[SheetModel, _Outcome]:
     return sheet, _Outcome(relaxed, settle(sheet, scheme, relaxed.points, settling))
 
 
-def _quantities(sheet: SheetModel, outcome: _Outcome) -> dict[str, Quantity]:
+def _quantities(sheet: Shell, outcome: _Outcome) -> dict[str, Quantity]:
     history = {
         "step": ("1", "pseudo-time step"),
         "height": ("m", "height between the rings"),
@@ -129,7 +129,7 @@ def _end_of_history(scalars: dict[str, Quantity], height: float) -> dict[str, fl
     }
 
 
-def _shape(sheet: SheetModel, points: np.ndarray) -> dict[str, Quantity]:
+def _shape(sheet: Shell, points: np.ndarray) -> dict[str, Quantity]:
     control, node = ("component", "row", "column"), ("component", "node_row", "node_column")
     surface, reference = knot_points(points), knot_points(sheet.reference)
     return {
@@ -151,7 +151,7 @@ def _radial_displacement(surface: np.ndarray, reference: np.ndarray) -> np.ndarr
     return np.hypot(surface[0], surface[1]) - np.hypot(reference[0], reference[1])
 
 
-def _scalars(sheet: SheetModel, outcome: _Outcome) -> dict[str, Quantity]:
+def _scalars(sheet: Shell, outcome: _Outcome) -> dict[str, Quantity]:
     result, settled = outcome.last, outcome.settled
     points = result.points
     force = np.empty_like(points)

@@ -12,9 +12,8 @@ from foilstudy.config.scene import material_of
 from foilstudy.linalg import SolveError
 from foilstudy.measure.stiffness import InterfaceSystem, Rings, condense, fixed_stiffness
 from foilstudy.model.patch import Patch, cylinder_control_points
-from foilstudy.model.shell.elements import OnePoint
-from foilstudy.model.shell.sheet_model import SheetModel
-from foilstudy.model.shell.tangent import stiffness_matrix
+from foilstudy.model.shell.elements.one_point import OnePoint
+from foilstudy.model.shell.shell import Shell
 
 
 def cylinder_bounds(study: StudyConfig, path: Path) -> None:
@@ -30,8 +29,8 @@ def cylinder_bounds(study: StudyConfig, path: Path) -> None:
         for j, height_mm in enumerate(study.reference_heights_mm):
             patch = Patch.for_cylinder(diameter, height_mm * 1e-3, size)
             points = cylinder_control_points(patch, diameter)
-            sheet = SheetModel(patch, points, material, thickness_um * 1e-6, element)
-            system = InterfaceSystem.split(stiffness_matrix(sheet), Rings.of(patch, points))
+            sheet = Shell.elastic(patch, points, material, thickness_um * 1e-6, element)
+            system = InterfaceSystem.split(sheet.tangent(), Rings.of(patch, points))
             try:
                 bounds[i, j] = fixed_stiffness(condense(system).stiffness)
             except SolveError as error:  # a missing bound is no reason to lose a study

@@ -20,7 +20,6 @@ from foilstudy.measure.stiffness import (
     fixed_stiffness,
     prestressed_stiffness,
 )
-from foilstudy.model.shell.tangent import stiffness_matrix
 from foilstudy.pipeline.crumpled import Crumple
 from foilstudy.pipeline.scheme import crumpling_scheme
 from foilstudy.solve.equilibrium.settle import SettleOptions, settle
@@ -68,7 +67,7 @@ def _relaxed_levels(task: RefineTask, crumple: Crumple) -> tuple[dict[str, Quant
         step, coarser = np.abs(prestressed - coarser), prestressed
     stress_free = crumple.sheet(crumple.points)
     rings = Rings.of(crumple.patch, crumple.points)
-    system = InterfaceSystem.split(stiffness_matrix(stress_free), rings)
+    system = InterfaceSystem.split(stress_free.tangent(), rings)
     numbers = {
         "refined_strain_energy": (sheet.energies(crumple.points).total, "J", "strain energy"),
         "refined_element_size": (

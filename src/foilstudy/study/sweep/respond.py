@@ -25,8 +25,7 @@ from foilstudy.measure.stiffness import (
     mesh_limit,
     prestressed_stiffness,
 )
-from foilstudy.model.shell.elements import STAGGERED
-from foilstudy.model.shell.tangent import stiffness_matrix
+from foilstudy.model.shell.elements.sampled import STAGGERED
 from foilstudy.pipeline.crumpled import Crumple
 from foilstudy.pipeline.structures import stress_free_structure
 from foilstudy.pipeline.vibration import dynamic_quantities
@@ -102,7 +101,7 @@ def _measure(task: ResponseTask, values: dict, attributes: dict) -> dict[str, Qu
 def _stress_free_stiffness(crumple: Crumple) -> np.ndarray:
     """Axial and radial, N/m."""
     rings = Rings.of(crumple.patch, crumple.points)
-    matrix = stiffness_matrix(crumple.sheet(crumple.points))
+    matrix = crumple.sheet(crumple.points).tangent()
     return fixed_stiffness(condense(InterfaceSystem.split(matrix, rings)).stiffness)
 
 

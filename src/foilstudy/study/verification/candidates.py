@@ -8,8 +8,9 @@ import numpy as np
 
 from foilstudy.model.foil import Material
 from foilstudy.model.patch import Patch
-from foilstudy.model.shell.elements import ELEMENTS, Element
-from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.elements import ELEMENTS
+from foilstudy.model.shell.elements.protocol import Element
+from foilstudy.model.shell.shell import Shell
 
 
 @dataclass(frozen=True)
@@ -31,9 +32,9 @@ class Candidate:
 
     def sheet(
         self, patch: Patch, reference: np.ndarray, material: Material, thickness: float
-    ) -> SheetModel:
+    ) -> Shell:
         """A sheet of this element; thickness in m."""
-        return SheetModel(patch, reference, material, thickness, self.element)
+        return Shell.elastic(patch, reference, material, thickness, self.element)
 
     def order(self, free_edge: bool = False) -> float:
         """Order in the element size of energies and of what equals one, see `linear`.
@@ -46,7 +47,7 @@ class Candidate:
 
 CANDIDATES = {
     # its samples on a free edge stand for half an element, in which the strain changes
-    "corner": Candidate("corner", ELEMENTS["corner"], edge_order=1.0),
-    "one_point": Candidate("one_point", ELEMENTS["one_point"], edge_order=2.0),
+    "corner": Candidate("corner", ELEMENTS["corner"](), edge_order=1.0),
+    "one_point": Candidate("one_point", ELEMENTS["one_point"](), edge_order=2.0),
 }
 """By name; the default element of the studies is the first."""

@@ -15,7 +15,7 @@ import numpy as np
 from foilstudy.linalg import Modes, SolveError, modes_below
 from foilstudy.model.foil import Material
 from foilstudy.model.patch import Patch, cylinder_control_points
-from foilstudy.model.shell.tangent import mass_matrix, stiffness_matrix
+from foilstudy.model.shell.tangent import mass_matrix
 from foilstudy.model.supports.edges import (
     Constraints,
     EdgeCondition,
@@ -49,9 +49,9 @@ _PLATE_THICKNESS = 0.001
 
 def natural_modes(sheet, held: Constraints, highest: float) -> Modes:
     """Modes up to a frequency in Hz; shapes on all control points, order row, column, component."""
-    foil_mass = sheet.material.density * sheet.thickness * sheet.element_areas()
+    foil_mass = sheet.material.density * sheet.thickness * sheet.section.areas
     modes = modes_below(
-        held.reduced_matrix(stiffness_matrix(sheet)),
+        held.reduced_matrix(sheet.tangent()),
         held.reduced_matrix(mass_matrix(sheet.patch, foil_mass)),
         (2 * np.pi * highest) ** 2,
     )
