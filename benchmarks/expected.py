@@ -211,11 +211,10 @@ def judged(study: Finished, model: CostModel) -> str:
 def start_seconds() -> float:
     """Time until Snakemake knows its jobs and the kernels are seen to be compiled."""
     clock = time.perf_counter()
-    bin_folder = Path(sys.executable).parent
-    tiny = ROOT / "config/tiny.yaml"
+    compiling = "from foilstudy.study.sweep import warmup; warmup.compile_kernels()"
     for words in (
-        [bin_folder / "snakemake", "--dry-run", "--quiet", "--configfile", tiny],
-        [sys.executable, ROOT / "workflow/scripts/compile.py"],
+        [sys.executable, "-m", "snakemake", "--dry-run", "--configfile", "config/tiny.yaml"],
+        [sys.executable, "-c", compiling],
     ):
         subprocess.run(words, cwd=ROOT, check=True, capture_output=True)
     return time.perf_counter() - clock
