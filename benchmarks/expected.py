@@ -4,9 +4,10 @@
 
 Of each folder, `cube.nc` says how many steps and how much time a realisation took, and
 `benchmarks/`, if it is there, how long its jobs took. How time grows with the mesh is in
-results/convergence, whose crumples have 7 to 1.25 mm. Logarithms are fitted, and every study has
-the same weight. The last lines say how far the model is from what was measured, each study also
-against the model that was fitted without it.
+results/convergence, whose crumples have 7 to 1.25 mm. What a reduction needs of memory shows where
+nothing is refined: four responses of the first folder with realisations are measured again, half a
+minute. Logarithms are fitted, and every study has the same weight. The last lines say how far the
+model is from what was measured, each study also against the model that was fitted without it.
 """
 
 from __future__ import annotations
@@ -14,9 +15,12 @@ from __future__ import annotations
 import csv
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass, replace
+from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
@@ -24,9 +28,12 @@ import pandas as pd
 import yaml
 from scipy.optimize import least_squares
 
-from foilstudy.config import StudyConfig, load_config
+from foilstudy.base.record import read_record
+from foilstudy.config import Cell, StudyConfig, load_config
+from foilstudy.config.scene import patch_of
 from foilstudy.study.sweep.cube import open_cube
 from foilstudy.study.sweep.expected import MEASURED, CostModel, expected
+from foilstudy.study.sweep.respond import respond
 
 ROOT = Path(__file__).parents[1]
 PHYSICS = ["seconds_crumple", "seconds_static", "seconds_dynamic"]
@@ -42,6 +49,7 @@ class Finished:
     config : StudyConfig
     cells : DataFrame
         One row for each realisation: what was measured, and its `configuration`.
+    folder : Path
     job_seconds, gathering_seconds : float
         Of a job beyond its physics, and of the jobs that are not those of a realisation; NaN where
         the folder holds no benchmarks.
@@ -49,6 +57,7 @@ class Finished:
 
     config: StudyConfig
     cells: pd.DataFrame
+    folder: Path
     job_seconds: float
     gathering_seconds: float
 
@@ -70,7 +79,7 @@ class Finished:
         jobs = [*_times(folder, "crumple/*"), *_times(folder, "response/*")]
         gathered = [seconds for name in GATHERED for seconds in _times(folder, name)]
         beyond = (sum(jobs) - cells[PHYSICS].to_numpy().sum()) / len(jobs) if jobs else np.nan
-        return cls(config, cells, beyond, sum(gathered) if gathered else np.nan)
+        return cls(config, cells, folder, beyond, sum(gathered) if gathered else np.nan)
 
 
 def _times(folder: Path, pattern: str) -> list[float]:
@@ -167,9 +176,38 @@ def _fit_projection(studies: Sequence[Finished], model: CostModel) -> dict[str, 
 def _fit_memory(studies: Sequence[Finished]) -> dict[str, float]:
     def deviation(model, study):
         finest = np.array([each.elements[-1] for each in study.cells.configuration])
-        return np.log(study.cells.peak_memory / model.peak_memory_mb(finest))
+        cells = study.cells
+        memory = model.peak_memory_mb(finest, cells.elements, cells.reduced_coordinates)
+        return np.log(cells.peak_memory / memory)
 
     return _fit(studies, deviation, "memory_base_mb", "memory_mb")
+
+
+def projection_memory_mb(study: Finished, model: CostModel) -> float:
+    """Memory of a reduction, from responses that are measured anew without refinement."""
+    cells = [cell for cell in study.config.cells() if cell.seed == 0]
+    cases = [(study, cell, hz) for cell in (cells[0], cells[-1]) for hz in (800.0, 1600.0)]
+    # a process each, as its peak counts
+    with ProcessPoolExecutor(1, get_context("spawn"), max_tasks_per_child=1) as pool:
+        found = list(pool.map(_coordinates_and_memory, cases))
+    products, memory = np.array(found).T
+    beyond = np.log((memory - model.memory_base_mb) / products)
+    return float(np.exp(beyond.mean()))
+
+
+def _coordinates_and_memory(case: tuple[Finished, Cell, float]) -> tuple[float, float]:
+    """Thousand elements times thousand coordinates, and peak memory in MB."""
+    study, cell, band_hz = case
+    task = study.config.response_task(cell)
+    dynamics = task.dynamics.model_copy(update={"shown_max_hz": band_hz})
+    task = task.model_copy(update={"refinements": 0, "dynamics": dynamics})
+    place = study.folder / "realisations" / cell.thickness_id / cell.overlength_id / "0"
+    with tempfile.TemporaryDirectory() as folder:
+        respond(task, place / "crumple.nc", Path(folder) / "response.nc")
+        values, _ = read_record(Path(folder) / "response.nc")
+    patch = patch_of(study.config.crumple_task(cell))
+    elements = patch.elements_around * patch.elements_along
+    return elements * float(values["reduced_coordinates"]) / 1e6, float(values["peak_memory"])
 
 
 def _fit(studies: Sequence, deviation: Callable, *names: str) -> dict[str, float]:
@@ -224,6 +262,9 @@ def main(folders: Sequence[str]) -> None:
     """Print coefficients and spread."""
     studies = [Finished.read(Path(folder)) for folder in folders]
     model = replace(fitted(studies), start=start_seconds())
+    kept = [study for study in studies if (study.folder / "realisations").is_dir()]
+    if kept:
+        model = replace(model, projection_memory_mb=projection_memory_mb(kept[0], model))
     for name, value in asdict(model).items():
         print(f"    {name}={value:.3g},")
     for study in studies:

@@ -7,11 +7,12 @@ Time is a sum of power laws, each with its reason:
 - the relaxation takes the more steps, the thinner the foil is against its radius; the ramp takes
   the steps it is told to take;
 - a static stiffness costs a factorisation, on every mesh of the ladder: twice on the mesh of the
-  crumple (stress-free and pre-stressed) and on the first refinement (corner and one-point element);
+  crumple (stress-free and pre-stressed) and on the first refinement (corner and staggered element);
 - a reduction costs a factorisation and the projection on its coordinates, elements times their
   square. They grow with the modes in the band, in number proportional to its end, and with R/t.
 
-Memory is proportional to the elements of the finest mesh that is factorised.
+Memory is proportional to the elements of the finest mesh that is factorised, or to elements times
+coordinates of the reduction, if that is more.
 
 `MEASURED` holds the coefficients, which `benchmarks/expected.py` fits to finished studies. They are
 those of the default element and the default reduction: of thin foil the one-point element takes
@@ -22,6 +23,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+
+import numpy as np
 
 from foilstudy.config import Cell, StudyConfig
 from foilstudy.config.scene import foil_of, patch_of
@@ -36,8 +39,8 @@ __all__ = [
     "expected",
 ]
 
-
 RING_MOTIONS = 12
+"""Coordinates that every reduced model has."""
 
 
 @dataclass(frozen=True)
@@ -51,14 +54,15 @@ class CostModel:
     settling, condensation, solve_exponent : float
         Seconds of settling and of one static stiffness, and how both grow with the elements.
     projection : float
-        Seconds of a reduction per square of a hundred coordinates.
+        Seconds of a reduction for a thousand elements times the square of a hundred coordinates.
     relaxation_steps, slenderness_exponent : float
         Steps after the ramp, and how they grow with R/t.
     coordinates, coordinates_exponent : float
         Reduced coordinates for each kHz of the band beyond the motions of the rings, and how they
         grow with R/t.
-    memory_base_mb, memory_mb : float
-        Memory of the libraries, and that for a thousand elements of the finest mesh.
+    memory_base_mb, memory_mb, projection_memory_mb : float
+        Memory of the libraries, that for a thousand elements of the finest mesh, and that for a
+        thousand elements times a thousand coordinates.
     job : float
         Seconds of a job beyond its physics.
     gathering : float
@@ -79,6 +83,7 @@ class CostModel:
     coordinates_exponent: float
     memory_base_mb: float
     memory_mb: float
+    projection_memory_mb: float
     job: float
     gathering: float
     start: float
@@ -114,9 +119,11 @@ class CostModel:
         projected = self.projection * elements / 1000 * (coordinates / 100) ** 2
         return self.solve_seconds(elements) + projected
 
-    def peak_memory_mb(self, elements: float) -> float:
-        """Peak memory of a job whose finest mesh has so many elements."""
-        return self.memory_base_mb + self.memory_mb * elements / 1000
+    def peak_memory_mb(self, finest: float, elements: float, coordinates: float) -> float:
+        """Peak memory of a job: of its finest mesh, or of the reduction on the coarsest."""
+        factorised = self.memory_mb * finest / 1000
+        reduced = self.projection_memory_mb * elements / 1000 * coordinates / 1000
+        return self.memory_base_mb + np.maximum(factorised, reduced)
 
 
 MEASURED = CostModel(
@@ -132,6 +139,7 @@ MEASURED = CostModel(
     coordinates_exponent=0.399,
     memory_base_mb=245,
     memory_mb=25.3,
+    projection_memory_mb=156,
     job=1.01,
     gathering=39.5,
     start=5.0,
@@ -274,5 +282,5 @@ def _configuration(study: StudyConfig, cell: Cell, model: CostModel) -> Expected
         response_seconds=model.static_seconds(meshes) + dynamic,
         refine_seconds=sum(model.crumple_seconds(mesh, relaxing) for mesh in relaxed),
         export_seconds=exported,
-        peak_memory_mb=model.peak_memory_mb(max([*meshes, *relaxed])),
+        peak_memory_mb=float(model.peak_memory_mb(max([*meshes, *relaxed]), elements, coordinates)),
     )
