@@ -18,9 +18,8 @@ from foilstudy.measure.stiffness import InterfaceSystem, Rings, condense  # noqa
 from foilstudy.model.foil import Foil, Imperfection, Material  # noqa: E402
 from foilstudy.model.imperfection import imperfect_cylinder  # noqa: E402
 from foilstudy.model.patch import Patch, cylinder_control_points  # noqa: E402
-from foilstudy.model.shell.elements.corner import Corner  # noqa: E402
 from foilstudy.model.shell.shell import Shell  # noqa: E402
-from foilstudy.model.shell.tangent import mass_matrix, stiffness_matrix  # noqa: E402
+from foilstudy.model.shell.tangent import mass_matrix  # noqa: E402
 from foilstudy.pipeline.scheme import RAMP_DAMPING, RELAXATION_DAMPING  # noqa: E402
 from foilstudy.solve.relaxation import Ramp, RelaxationResult, Scheme, StoppingRule, relax  # noqa: E402
 from foilstudy.solve.relaxation.damping import AdaptiveViscousDamping  # noqa: E402
@@ -38,7 +37,7 @@ def cylinder(
     material=FEP,
     thickness=THICKNESS,
     height=REFERENCE_HEIGHT,
-    element=Corner(),
+    element=None,
 ):
     """Perfect cylinder as a sheet."""
     patch = Patch.for_cylinder(DIAMETER, height, element_size)

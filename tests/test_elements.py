@@ -130,7 +130,7 @@ def test_stressed_tangent_of_the_reference_is_the_stress_free_one(element):
 @either_patch
 def test_vectorised_corner_is_the_general_one(around, make):
     sheet = make(around, foil=Foil(Corner()))
-    general = Sampled(sampling.corner(Corner().share(sheet)))
+    general = Sampled(sampling.corner(Corner().share(sheet.section)))
     other = Shell.elastic(sheet.patch, sheet.reference, FEP, sheet.thickness, general)
     points = wild_shape(sheet)
     force, expected = np.empty_like(points), np.empty_like(points)
@@ -308,9 +308,7 @@ def free_panel(element, elements, thickness):
 
 
 def zero_modes(element, slenderness):
-    values = np.linalg.eigvalsh(
-        free_panel(element, 8, slenderness * SIDE / 8).tangent().toarray()
-    )
+    values = np.linalg.eigvalsh(free_panel(element, 8, slenderness * SIDE / 8).tangent().toarray())
     zero = np.abs(values) < 1e-14 * values[-1]
     assert values[~zero].min() > 1e-10 * values[-1]  # a gap of orders, not a matter of the limit
     return zero.sum()

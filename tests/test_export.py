@@ -13,6 +13,7 @@ from scipy.io import loadmat
 from test_workflow import changed, plan
 
 from foilstudy.base.record import Quantity, write_record
+from foilstudy.command import main
 from foilstudy.config import Export, load_config
 from foilstudy.export import FORMATS, Contents, write
 from foilstudy.export.contents import surface_grid
@@ -39,7 +40,6 @@ from foilstudy.pipeline.structures import stress_free_structure
 from foilstudy.pipeline.surface import SurfaceGrid, sheet_from_grid
 from foilstudy.pipeline.surface.fit import fitted_patch
 from foilstudy.study.sweep.export import contents_of, export_realisation
-from foilstudy.study.sweep.export_command import main
 
 MODES = 4
 RATIO = 0.05
@@ -272,7 +272,7 @@ def test_energy_densities_integrate_to_the_energies_of_the_crumple(coarse_crumpl
         assert density @ area == pytest.approx(getattr(energies, name), rel=1e-10)
 
 
-@pytest.mark.parametrize("element", ELEMENTS.values(), ids=ELEMENTS)
+@pytest.mark.parametrize("element", [ELEMENTS[name]() for name in ELEMENTS], ids=ELEMENTS)
 def test_element_energies_sum_to_the_energy_of_a_sheet(coarse_crumple, element):
     sheet = coarse_crumple.sheet
     sheet = Shell.elastic(sheet.patch, sheet.reference, sheet.material, THICKNESS, element)
@@ -427,22 +427,36 @@ def test_format_that_cannot_hold_the_damping_leaves_the_others(realisation):
 def test_command_line_writes_one_format_to_a_file(realisation, tmp_path):
     target = tmp_path / "mine.csv"
     config = tmp_path / "study.yaml"
-    main([str(realisation.folder), "--format=csv", f"--output={target}", f"--config={config}"])
+    folder = str(realisation.folder)
+    main(["export", folder, "--format=csv", f"--output={target}", f"--config={config}"])
     assert target.read_text().startswith("frequency (Hz),transfer axial real (N/m)")
+
+
+def test_command_line_writes_every_format_and_the_shape_comes_back(realisation, tmp_path, capsys):
+    config = tmp_path / "study.yaml"
+    main(["export", str(realisation.folder), "--format=all", f"--config={config}"])
+    paths = [realisation.folder / "export" / kind.filename for kind in FORMATS.values()]
+    assert capsys.readouterr().out.splitlines() == [f"wrote {path}" for path in paths]
+    record = contents_of(realisation.task, realisation.folder / "crumple.nc").crumple
+    shape = dict(zip(FORMATS, paths))["npz"]
+    back = sheet_from_grid(shape, THICKNESS, FOIL.material)
+    lift = record.points[2, :RING_ROWS].mean()
+    expected = record.points - np.array([0, 0, lift])[:, None, None]
+    np.testing.assert_allclose(back.points, expected, atol=1e-14)
 
 
 def test_command_line_refuses_in_one_sentence(realisation, tmp_path):
     """`SystemExit` with a text prints it and ends with code 1."""
     with pytest.raises(SystemExit) as unknown:
-        main([str(realisation.folder), "--format=stl"])
+        main(["export", str(realisation.folder), "--format=stl"])
     known = ", ".join(FORMATS)
     assert unknown.value.code == f"'stl' is not an export format; use one of {known}."
     with pytest.raises(SystemExit, match=r"^\S+cube.nc: there is no such file, .*--config\.$"):
-        main([str(realisation.folder), "--format=csv"])
+        main(["export", str(realisation.folder), "--format=csv"])
     config = tmp_path / "study.yaml"
     realisation.record("diverged", "step 12")
     with pytest.raises(SystemExit, match=r"its status is diverged \(step 12\)"):
-        main([str(realisation.folder), "--format=csv", f"--config={config}"])
+        main(["export", str(realisation.folder), "--format=csv", f"--config={config}"])
 
 
 def test_study_exports_every_realisation_if_formats_are_given(tmp_path):

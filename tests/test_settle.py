@@ -38,9 +38,7 @@ def relative_residual(sheet, points):
 
 def negative_eigenvalues(sheet, points):
     owned = 3 * RING_ROWS * sheet.patch.columns
-    return factorise(
-        sheet.tangent(points)[owned:-owned, owned:-owned].tocsr()
-    ).negative_eigenvalues
+    return factorise(sheet.tangent(points)[owned:-owned, owned:-owned].tocsr()).negative_eigenvalues
 
 
 @pytest.fixture(scope="module")

@@ -76,8 +76,8 @@ def _heading(contents: Contents) -> Iterator[str]:
         Expected, foilstudy on this mesh: axial {axial:.6g} N/m, radial {radial:.6g} N/m,
         eigenfrequencies with both rings held
         {frequencies} Hz.
-        The two codes agree as the mesh is refined (python -m foilstudy.export --refinements), and
-        differ on a given one by their mesh errors.
+        The two codes agree as the mesh is refined (foilstudy export --refinements), and differ on
+        a given one by their mesh errors.
         """
     )
     for name, text in contents.provenance.items():

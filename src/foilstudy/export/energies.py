@@ -7,26 +7,27 @@ from dataclasses import dataclass
 import numpy as np
 
 from foilstudy.model.patch import Patch
-from foilstudy.model.shell.elements import Corner, OnePoint
+from foilstudy.model.shell.elements.corner import Corner
+from foilstudy.model.shell.elements.one_point import OnePoint
 from foilstudy.model.shell.elements.sampled import basis_weights
 from foilstudy.model.shell.elements.sampling import LAW_PAIRS, StrainSampling, corner
 from foilstudy.model.shell.geometry import reference_geometry
-from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.shell import Shell
 
 
-def element_energies(sheet: SheetModel, points: np.ndarray) -> np.ndarray:
+def element_energies(sheet: Shell, points: np.ndarray) -> np.ndarray:
     """Membrane, bending and stabilisation energy of every element.
 
     Parameters
     ----------
-    sheet : SheetModel
+    sheet : Shell
     points : ndarray, shape (3, rows, columns)
         Control points, m.
 
     Returns
     -------
     ndarray, shape (3, elements_along, elements_around)
-        J; their sums are `SheetModel.energies`.
+        J; their sums are `Shell.energies`.
 
     Raises
     ------
@@ -35,7 +36,7 @@ def element_energies(sheet: SheetModel, points: np.ndarray) -> np.ndarray:
     """
     element = sheet.element
     if isinstance(element, Corner):
-        return _sampled(sheet, points, corner(element.share(sheet)))
+        return _sampled(sheet, points, corner(element.share(sheet.section)))
     if isinstance(element, OnePoint):
         return _one_point(sheet, points, element.stabilisation)
     raise ValueError(
@@ -52,33 +53,33 @@ def _quadratic(law: np.ndarray, strain: np.ndarray) -> np.ndarray:
     return total
 
 
-def _one_point(sheet: SheetModel, points: np.ndarray, stabilisation: float) -> np.ndarray:
+def _one_point(sheet: Shell, points: np.ndarray, stabilisation: float) -> np.ndarray:
     patch = sheet.patch
     now = _geometry(points, patch)
-    change = now - sheet.geometry
+    change = now - _geometry(sheet.reference, patch)
     membrane = np.stack([0.5 * change[:, 0], 0.5 * change[:, 1], 0.5 * change[:, 2]])
     bending = -np.moveaxis(change[:, 3:6], 1, 0)
     first, second = np.moveaxis(change[:, 6:9], 1, 0), np.moveaxis(change[:, 9:12], 1, 0)
-    control = patch.size_around**2 * _quadratic(sheet.law, first)
-    control += patch.size_along**2 * _quadratic(sheet.law, second)
+    control = patch.size_around**2 * _quadratic(sheet.section.stiffness, first)
+    control += patch.size_along**2 * _quadratic(sheet.section.stiffness, second)
     return np.stack(
         [
-            _quadratic(sheet.law, membrane),
-            sheet.thickness**2 / 12 * _quadratic(sheet.law, bending),
+            _quadratic(sheet.section.stiffness, membrane),
+            sheet.thickness**2 / 12 * _quadratic(sheet.section.stiffness, bending),
             stabilisation / 12 * control,
         ]
     )
 
 
-def _sampled(sheet: SheetModel, points: np.ndarray, sampling: StrainSampling) -> np.ndarray:
+def _sampled(sheet: Shell, points: np.ndarray, sampling: StrainSampling) -> np.ndarray:
     strain = _membrane_samples(points, sheet.patch, sampling)
     strain -= _membrane_samples(sheet.reference, sheet.patch, sampling)
     energies = np.empty((3, *strain.shape[1:]))
     for part, forms in ((0, sampling.forms), (2, sampling.control)):
         quadratic = np.einsum("kab,aji,bji->jki", forms, strain, strain, optimize=True)
-        energies[part] = 0.5 * (sheet.law * quadratic).sum(axis=1)
+        energies[part] = 0.5 * (sheet.section.stiffness * quadratic).sum(axis=1)
     change = _folded_curvature_change(sheet, points)
-    energies[1] = sheet.thickness**2 / 12 * _quadratic(sheet.law, change)
+    energies[1] = sheet.thickness**2 / 12 * _quadratic(sheet.section.stiffness, change)
     return energies
 
 
@@ -108,11 +109,12 @@ def _geometry(points: np.ndarray, patch: Patch) -> np.ndarray:
     return reference_geometry(points, patch.elements_around, patch.size_around, patch.size_along)
 
 
-def _folded_curvature_change(sheet: SheetModel, points: np.ndarray) -> np.ndarray:
+def _folded_curvature_change(sheet: Shell, points: np.ndarray) -> np.ndarray:
     """B_ab - b_ab J_0/J in the middle: what the corner element bends by; 11, 22, twice 12."""
     now = _geometry(points, sheet.patch)
-    jacobian = [np.sqrt(g[:, 0] * g[:, 1] - 0.25 * g[:, 2] ** 2) for g in (sheet.geometry, now)]
-    return np.moveaxis(sheet.geometry[:, 3:6], 1, 0) - (jacobian[0] / jacobian[1]) * np.moveaxis(
+    forms = sheet.section.forms
+    jacobian = [np.sqrt(g[:, 0] * g[:, 1] - 0.25 * g[:, 2] ** 2) for g in (forms, now)]
+    return np.moveaxis(forms[:, 3:6], 1, 0) - (jacobian[0] / jacobian[1]) * np.moveaxis(
         now[:, 3:6], 1, 0
     )
 
@@ -134,15 +136,15 @@ class Strains:
     curvature: np.ndarray
 
 
-def principal_strains(sheet: SheetModel, points: np.ndarray) -> Strains:
+def principal_strains(sheet: Shell, points: np.ndarray) -> Strains:
     """Strains of a shape against the reference of the sheet."""
     samples = corner(0.0)
     corners = [_membrane_samples(p, sheet.patch, samples) for p in (points, sheet.reference)]
     difference = corners[0] - corners[1]
     membrane = difference[:12].reshape(4, 3, *difference.shape[1:]).mean(axis=0)
-    high, low = _principal(sheet.geometry, membrane)
-    bent = np.moveaxis(sheet.geometry[:, 3:6] - _geometry(points, sheet.patch)[:, 3:6], 1, 0)
-    first, second = _principal(sheet.geometry, bent)
+    high, low = _principal(sheet.section.forms, membrane)
+    bent = np.moveaxis(sheet.section.forms[:, 3:6] - _geometry(points, sheet.patch)[:, 3:6], 1, 0)
+    first, second = _principal(sheet.section.forms, bent)
     return Strains(high, low, np.where(np.abs(first) > np.abs(second), first, second))
 
 

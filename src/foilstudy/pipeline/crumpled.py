@@ -8,8 +8,9 @@ import numpy as np
 
 from foilstudy.model.foil import Foil
 from foilstudy.model.patch import Patch, refine
-from foilstudy.model.shell.elements import ELEMENTS, Element
-from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.elements import ELEMENTS
+from foilstudy.model.shell.elements.protocol import Element
+from foilstudy.model.shell.shell import Shell
 
 
 @dataclass(frozen=True)
@@ -40,12 +41,12 @@ class Crumple:
         sizes = np.pi * foil.diameter / columns, foil.reference_height / along
         patch = Patch(columns, along, *sizes)
         reference = values["reference_control_points"]
-        return cls(foil, patch, points, reference, ELEMENTS[attributes["element"]])
+        return cls(foil, patch, points, reference, ELEMENTS[attributes["element"]]())
 
-    def sheet(self, reference: np.ndarray) -> SheetModel:
+    def sheet(self, reference: np.ndarray) -> Shell:
         """A sheet of this foil that is stress-free in the given shape."""
         foil = self.foil
-        return SheetModel(self.patch, reference, foil.material, foil.thickness, self.element)
+        return Shell.elastic(self.patch, reference, foil.material, foil.thickness, self.element)
 
     def refined(self) -> Crumple:
         """The same shape with every element split in four."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.shell import Shell
 from foilstudy.solve.relaxation import Scheme
 from foilstudy.solve.relaxation.damping import AdaptiveViscousDamping
 from foilstudy.solve.relaxation.spectral_mass import SpectralMass
@@ -12,7 +12,7 @@ RAMP_DAMPING, RELAXATION_DAMPING = 0.5, 0.06
 quotient overestimates the slowest mode, so that less damping settles sooner (docs/method.md)."""
 
 
-def crumpling_scheme(sheet: SheetModel) -> Scheme:
+def crumpling_scheme(sheet: Shell) -> Scheme:
     """Spectral mass scaling with adaptive viscous damping."""
     return Scheme(
         mass=SpectralMass(sheet),

@@ -8,7 +8,7 @@ from foilstudy.measure.dynamics.structure import Structure
 from foilstudy.measure.stiffness import InterfaceSystem, Rings
 from foilstudy.measure.stiffness.rings import interface_rigid_modes
 from foilstudy.model.patch import RING_ROWS
-from foilstudy.model.shell.tangent import mass_matrix, stiffness_matrix
+from foilstudy.model.shell.tangent import mass_matrix
 from foilstudy.pipeline.crumpled import Crumple
 
 
@@ -20,7 +20,7 @@ def stress_free_structure(crumple: Crumple) -> Structure:
     SolveError
         If the stiffness with held rings is singular.
     """
-    matrix = stiffness_matrix(crumple.sheet(crumple.points))
+    matrix = crumple.sheet(crumple.points).tangent()
     stiffness = InterfaceSystem.split(matrix, Rings.of(crumple.patch, crumple.points))
     return Structure.assembled(stiffness, mass(crumple), _rigid_motions(crumple))
 
@@ -35,7 +35,7 @@ def prestressed_structure(crumple: Crumple) -> Structure:
     """
     sheet, points = crumple.sheet(crumple.reference), crumple.points
     rings = Rings.of(crumple.patch, points)
-    stiffness = InterfaceSystem.split(stiffness_matrix(sheet, points), rings)
+    stiffness = InterfaceSystem.split(sheet.tangent(points), rings)
     force = np.empty_like(points)
     sheet.force(points, force)
     for ring, rows in enumerate((slice(0, RING_ROWS), slice(-RING_ROWS, None))):
@@ -65,6 +65,6 @@ def _turning_stiffness(points: np.ndarray, force: np.ndarray) -> np.ndarray:
 def mass(crumple: Crumple) -> InterfaceSystem:
     """Mass of the crumpled foil; the areal density is that of the undeformed foil."""
     foil, patch = crumple.foil, crumple.patch
-    areas = crumple.sheet(crumple.reference).element_areas()
+    areas = crumple.sheet(crumple.reference).section.areas
     matrix = mass_matrix(patch, foil.material.density * foil.thickness * areas)
     return InterfaceSystem.split(matrix, Rings.of(patch, crumple.points))

@@ -7,16 +7,15 @@ import numpy as np
 from foilstudy.measure.stiffness.condensation import InterfaceSystem, condense
 from foilstudy.measure.stiffness.directional import fixed_stiffness
 from foilstudy.measure.stiffness.rings import Rings
-from foilstudy.model.shell.sheet_model import SheetModel
-from foilstudy.model.shell.tangent import stiffness_matrix
+from foilstudy.model.shell.shell import Shell
 
 
-def prestressed_stiffness(sheet: SheetModel, points: np.ndarray) -> np.ndarray:
+def prestressed_stiffness(sheet: Shell, points: np.ndarray) -> np.ndarray:
     """Axial and radial stiffness of the consistent tangent at an equilibrium, other motions held.
 
     Parameters
     ----------
-    sheet : SheetModel
+    sheet : Shell
     points : ndarray, shape (3, rows, columns)
         Control points at the equilibrium, m.
 
@@ -30,6 +29,6 @@ def prestressed_stiffness(sheet: SheetModel, points: np.ndarray) -> np.ndarray:
     SolveError
         If the tangent with held rings is singular.
     """
-    tangent = stiffness_matrix(sheet, points)
+    tangent = sheet.tangent(points)
     system = InterfaceSystem.split(tangent, Rings.of(sheet.patch, points))
     return fixed_stiffness(condense(system).stiffness)

@@ -1,11 +1,9 @@
-"""Surface geometry at the element middles and the elastic law in its curvilinear coordinates."""
+"""Surface geometry at the element middles."""
 
 from __future__ import annotations
 
 import numpy as np
 from numba import njit
-
-from foilstudy.model.foil import Material
 
 
 @njit(cache=True, fastmath=True, error_model="numpy")
@@ -65,36 +63,3 @@ def reference_geometry(x, n_around, h1, h2):
             out[j, 10, i] = np.sum(a[3] * a[1])
             out[j, 11, i] = np.sum(a[4] * a[1]) + np.sum(a[3] * a[0])
     return out
-
-
-def plane_stress_law(geometry: np.ndarray, material: Material, thickness: float) -> np.ndarray:
-    """Membrane stiffness per unit of parameter area, in curvilinear Voigt components.
-
-    n^ab = E t / (1 - nu^2) [nu A^ab A^cd + (1 - nu)/2 (A^ac A^bd + A^ad A^bc)] e_cd, times the
-    area element sqrt(det A) (St. Venant-Kirchhoff, plane stress). The bending law is the same
-    times t^2/12.
-
-    Parameters
-    ----------
-    geometry : ndarray, shape (elements_along, 12, elements_around)
-        As returned by `kernels.reference_geometry`.
-
-    Returns
-    -------
-    ndarray, shape (elements_along, 6, elements_around)
-        Coefficients 11-11, 22-22, 11-22, 11-12, 22-12, 12-12 against (e_11, e_22, 2 e_12), N/m.
-    """
-    nu = material.poisson_ratio
-    a11, a22, a12 = geometry[:, 0], geometry[:, 1], 0.5 * geometry[:, 2]
-    det = a11 * a22 - a12**2
-    i11, i22, i12 = a22 / det, a11 / det, -a12 / det
-    scale = material.youngs_modulus * thickness / (1 - nu**2) * np.sqrt(det)
-    shear = 0.5 * (1 - nu)
-    law = np.empty((geometry.shape[0], 6, geometry.shape[2]))
-    law[:, 0] = scale * i11**2
-    law[:, 1] = scale * i22**2
-    law[:, 2] = scale * (nu * i11 * i22 + (1 - nu) * i12**2)
-    law[:, 3] = scale * i11 * i12
-    law[:, 4] = scale * i22 * i12
-    law[:, 5] = scale * (nu * i12**2 + shear * (i11 * i22 + i12**2))
-    return law

@@ -10,7 +10,6 @@ import numpy as np
 import scipy.sparse as sparse
 
 from foilstudy.model.patch import Patch
-from foilstudy.model.shell.sheet_model import SheetModel
 
 _MASS = np.array([[6.0, 13.0, 1.0], [13.0, 54.0, 13.0], [1.0, 13.0, 6.0]]) / 120.0
 """Mass of one quadratic uniform B-spline element per unit of length."""
@@ -21,6 +20,8 @@ _REACH = 5
 
 def _sparsity(patch: Patch):
     """Row starts, column indices and the matching selection of stencil entries."""
+    if patch.periodic and patch.columns < _REACH:
+        raise ValueError(f"a patch needs at least {_REACH} elements around, not {patch.columns}")
     rows, columns = patch.rows, patch.columns
     row = np.arange(rows)[:, None, None, None]
     column = np.arange(columns)[None, :, None, None]
@@ -37,29 +38,20 @@ def _sparsity(patch: Patch):
     return starts, index[valid], valid
 
 
-def stiffness_matrix(sheet: SheetModel, points: np.ndarray | None = None) -> sparse.csr_matrix:
-    """Tangent stiffness on all control points, ordered row, column, component.
+def block_matrix(patch: Patch, blocks: np.ndarray) -> sparse.csr_matrix:
+    """Sparse matrix from the blocks of an element kernel, ordered row, column, component.
 
     Parameters
     ----------
-    sheet : SheetModel
-    points : ndarray, shape (3, rows, columns), optional
-        Deformed control points. Without them the sheet is in its stress-free shape.
-
-    Returns
-    -------
-    csr_matrix
-        Symmetric, N/m.
+    patch : Patch
+    blocks : ndarray, shape (rows, columns, 5, 5, 3, 3)
+        Control point, neighbour; see `ElementKernel.tangent_blocks`.
 
     Raises
     ------
     ValueError
         If there are fewer than five control points around.
     """
-    patch = sheet.patch
-    if patch.periodic and patch.columns < _REACH:
-        raise ValueError(f"a patch needs at least {_REACH} elements around, not {patch.columns}")
-    blocks = sheet.tangent_blocks(points)
     starts, index, valid = _sparsity(patch)
     size = 3 * patch.rows * patch.columns
     matrix = sparse.bsr_matrix((blocks[valid], index, starts), shape=(size, size)).tocsr()
@@ -68,7 +60,7 @@ def stiffness_matrix(sheet: SheetModel, points: np.ndarray | None = None) -> spa
 
 
 def mass_matrix(patch: Patch, element_masses: np.ndarray) -> sparse.csr_matrix:
-    """Consistent mass on all control points, same order as `stiffness_matrix`.
+    """Consistent mass on all control points, same order as `block_matrix`.
 
     Parameters
     ----------

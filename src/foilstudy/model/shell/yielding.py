@@ -6,10 +6,10 @@ import numpy as np
 
 from foilstudy.model.patch import Patch
 from foilstudy.model.shell.geometry import reference_geometry
-from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.shell import Shell
 
 
-def von_mises_stress(sheet: SheetModel, points: np.ndarray) -> np.ndarray:
+def von_mises_stress(sheet: Shell, points: np.ndarray) -> np.ndarray:
     """Larger von Mises stress of the two faces at the element middles.
 
     The strain at a face is e_ab +- (t/2) k_ab, with the membrane strain as the mean of the element
@@ -23,11 +23,12 @@ def von_mises_stress(sheet: SheetModel, points: np.ndarray) -> np.ndarray:
     """
     patch, material = sheet.patch, sheet.material
     now = reference_geometry(points, patch.elements_around, patch.size_around, patch.size_along)
-    bending = sheet.geometry[:, 3:6] - now[:, 3:6]
+    forms = sheet.section.forms
+    bending = forms[:, 3:6] - now[:, 3:6]
     membrane = 0.5 * (
         _corner_mean_metric(points, patch) - _corner_mean_metric(sheet.reference, patch)
     )
-    a11, a22, a12 = sheet.geometry[:, 0], sheet.geometry[:, 1], 0.5 * sheet.geometry[:, 2]
+    a11, a22, a12 = forms[:, 0], forms[:, 1], 0.5 * forms[:, 2]
     det = a11 * a22 - a12**2
     modulus = material.youngs_modulus / (1 - material.poisson_ratio**2)
     stress = np.zeros(det.shape)
@@ -59,8 +60,8 @@ def _corner_mean_metric(points: np.ndarray, patch: Patch) -> np.ndarray:
     return 0.5 * (along[:, :, :-1] + along[:, :, 1:])
 
 
-def beyond_yield_share(sheet: SheetModel, points: np.ndarray) -> float:
+def beyond_yield_share(sheet: Shell, points: np.ndarray) -> float:
     """Share of the stress-free area where a face exceeds the yield stress."""
-    areas = sheet.element_areas()
+    areas = sheet.section.areas
     beyond = von_mises_stress(sheet, points) > sheet.material.yield_stress
     return float(areas[beyond].sum() / areas.sum())

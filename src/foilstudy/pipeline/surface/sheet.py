@@ -9,7 +9,7 @@ import numpy as np
 
 from foilstudy.model.foil import Foil, Material
 from foilstudy.model.patch import cylinder_control_points
-from foilstudy.model.shell.elements import DEFAULT_ELEMENT
+from foilstudy.model.shell.elements.corner import Corner
 from foilstudy.pipeline.crumpled import Crumple
 from foilstudy.pipeline.surface.checks import (
     DEFAULT_LIMITS,
@@ -78,7 +78,7 @@ def sheet_from_grid(
         material=material,
     )
     reference = cylinder_control_points(patch, foil.diameter)
-    return Crumple(foil, patch, control, reference, DEFAULT_ELEMENT)
+    return Crumple(foil, patch, control, reference, Corner())
 
 
 def _grid_of(source: str | Path | np.ndarray | SurfaceGrid) -> SurfaceGrid:

@@ -15,8 +15,7 @@ import numpy as np
 import scipy.sparse as sparse
 
 from foilstudy.model.patch import RING_ROWS
-from foilstudy.model.shell.sheet_model import SheetModel
-from foilstudy.model.shell.tangent import stiffness_matrix
+from foilstudy.model.shell.shell import Shell
 from foilstudy.solve.equilibrium.newton import NewtonOptions, NewtonResult, minimise
 from foilstudy.solve.relaxation import Ramp, Scheme, StoppingRule, relax
 
@@ -29,7 +28,7 @@ class HeldSheet:
 
     Parameters
     ----------
-    sheet : SheetModel
+    sheet : Shell
     points : ndarray, shape (3, rows, columns)
         Control points, m; those of the rings are kept.
 
@@ -39,7 +38,7 @@ class HeldSheet:
         Norm of the force on the rings at the last evaluation, N.
     """
 
-    def __init__(self, sheet: SheetModel, points: np.ndarray):
+    def __init__(self, sheet: Shell, points: np.ndarray):
         self._sheet, self._points = sheet, points.copy()
         self._force = np.empty_like(points)
         self._at: np.ndarray | None = None
@@ -66,7 +65,7 @@ class HeldSheet:
     def hessian(self, q: np.ndarray) -> sparse.csr_matrix:
         """Tangent stiffness of the free control points, N/m."""
         owned = RING_ROWS * 3 * self._sheet.patch.columns
-        matrix = stiffness_matrix(self._sheet, self.points(q))
+        matrix = self._sheet.tangent(self.points(q))
         return matrix[owned:-owned, owned:-owned].tocsr()
 
     def ring_force_at(self, q: np.ndarray) -> float:
@@ -135,13 +134,13 @@ class SettleResult:
 
 
 def settle(
-    sheet: SheetModel, scheme: Scheme, points: np.ndarray, options: SettleOptions | None = None
+    sheet: Shell, scheme: Scheme, points: np.ndarray, options: SettleOptions | None = None
 ) -> SettleResult:
     """Stable equilibrium with the rings held, from any shape.
 
     Parameters
     ----------
-    sheet : SheetModel
+    sheet : Shell
     scheme : Scheme
         Of the relaxation; its damping after the ramp is used.
     points : ndarray, shape (3, rows, columns)
@@ -179,7 +178,7 @@ def settle(
 
 
 def _polish(
-    sheet: SheetModel, points: np.ndarray, residual_tolerance: float, hessians_max: int
+    sheet: Shell, points: np.ndarray, residual_tolerance: float, hessians_max: int
 ) -> tuple[np.ndarray, NewtonResult]:
     """Minimise the energy with the rings held; the new control points and the outcome."""
     held = HeldSheet(sheet, points)
@@ -193,7 +192,7 @@ def _polish(
 
 
 def stopped_at(
-    sheet: SheetModel,
+    sheet: Shell,
     scheme: Scheme,
     points: np.ndarray,
     residuals: Iterable[float],

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sparse
 
-from foilstudy.model.shell.sheet_model import SheetModel
-from foilstudy.model.shell.tangent import stiffness_matrix
+from foilstudy.model.shell.shell import Shell
 from foilstudy.model.supports.edges import Constraints
 from foilstudy.model.supports.loads import Load
 
@@ -16,7 +15,7 @@ class LoadedSheet:
 
     Parameters
     ----------
-    sheet : SheetModel
+    sheet : Shell
     constraints : Constraints
     load : Load
     factor : float
@@ -33,7 +32,7 @@ class LoadedSheet:
 
     def __init__(
         self,
-        sheet: SheetModel,
+        sheet: Shell,
         constraints: Constraints,
         load: Load,
         factor: float = 1.0,
@@ -69,7 +68,7 @@ class LoadedSheet:
     def hessian(self, q: np.ndarray) -> sparse.csr_matrix:
         """Tangent on the unknowns, load stiffness included; see `newton.Potential`."""
         points = self.points(q)
-        tangent = stiffness_matrix(self.sheet, points)
+        tangent = self.sheet.tangent(points)
         return self.constraints.reduced_matrix(tangent - self.factor * self.load.stiffness(points))
 
     def rounding(self) -> float:

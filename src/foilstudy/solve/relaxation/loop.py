@@ -8,7 +8,7 @@ import numpy as np
 from numba import njit
 
 from foilstudy.model.patch import RING_ROWS
-from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.shell import Shell
 from foilstudy.solve.relaxation.damping import Damping
 from foilstudy.solve.relaxation.mass_scaling import MassScaling
 
@@ -159,7 +159,7 @@ def _motion_products(velocity, momentum, force, previous, free_start, free_stop)
 
 
 def relax(
-    sheet: SheetModel,
+    sheet: Shell,
     scheme: Scheme,
     ramp: Ramp,
     rule: StoppingRule,
@@ -172,7 +172,7 @@ def relax(
 
     Parameters
     ----------
-    sheet : SheetModel
+    sheet : Shell
     scheme : Scheme
     ramp : Ramp
     rule : StoppingRule

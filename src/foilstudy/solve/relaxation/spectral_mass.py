@@ -13,7 +13,7 @@ import numpy as np
 from numba import njit
 
 from foilstudy.model.patch import RING_ROWS
-from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.shell import Shell
 
 
 @njit(cache=True, fastmath=True, error_model="numpy")
@@ -51,13 +51,13 @@ class SpectralMass:
 
     Parameters
     ----------
-    sheet : SheetModel
+    sheet : Shell
     safety : float
         The factor s. The elastic stiffness of the undeformed sheet needs 1.01 to 1.2; folds
         stiffen it: at 1.05 sheets with 92 % overlength became unstable, at 1.3 none did.
     """
 
-    def __init__(self, sheet: SheetModel, safety: float = 1.5):
+    def __init__(self, sheet: Shell, safety: float = 1.5):
         patch, material = sheet.patch, sheet.material
         h1, h2 = patch.size_around, patch.size_along
         membrane = material.youngs_modulus * sheet.thickness / (1 - material.poisson_ratio**2)

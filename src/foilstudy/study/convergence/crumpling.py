@@ -150,7 +150,7 @@ def _limit(crumple: Crumple, plain: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     published results, which have no limit.
     """
     levels, fine, staggered = [plain], crumple, np.full(2, np.nan)
-    if crumple.element is not Corner():
+    if crumple.element != Corner():
         return staggered, staggered
     size = crumple.patch.size_along
     while size / 2 >= _REFINED_SIZE_MIN and len(levels) <= _REFINEMENTS_MAX:

@@ -8,10 +8,9 @@ from foilstudy.model.shell.elements import sampling
 from foilstudy.model.shell.elements.corner import Corner
 from foilstudy.model.shell.elements.one_point import OnePoint
 from foilstudy.model.shell.elements.protocol import Element
-from foilstudy.model.shell.elements.sampled import Sampled
-from foilstudy.model.shell.elements.sampled import SampledKernel
+from foilstudy.model.shell.elements.sampled import Sampled, SampledKernel
 from foilstudy.model.shell.elements.sampling import StrainSampling
-from foilstudy.model.shell.shell import Shell
+from foilstudy.model.shell.section import Section
 
 
 @dataclass(frozen=True)
@@ -49,9 +48,9 @@ class _CornerSampled:
     bending_points: int = 1
     name: str = "corner, sampled"
 
-    def kernel(self, sheet: Shell) -> SampledKernel:
-        share = Corner().share(sheet)
-        return SampledKernel(sheet, sampling.corner(share, self.fold, self.bending_points))
+    def kernel(self, section: Section) -> SampledKernel:
+        share = Corner().share(section)
+        return SampledKernel(section, sampling.corner(share, self.fold, self.bending_points))
 
 
 def _sampled(family: str, label: str, variant: StrainSampling) -> Variant:

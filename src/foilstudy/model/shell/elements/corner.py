@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from foilstudy.model.shell.elements import corner_kernel
 from foilstudy.model.shell.elements.sampled import SampledKernel
 from foilstudy.model.shell.elements.sampling import corner
-
-if TYPE_CHECKING:
-    from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.section import Section
 
 
 @dataclass(frozen=True)
@@ -34,27 +31,27 @@ class Corner:
     largest_share: float = 0.1
     name: str = "corner"
 
-    def share(self, sheet: SheetModel) -> float:
-        """The share for a sheet's thickness and element size."""
-        size2 = sheet.patch.size_around * sheet.patch.size_along
-        return min(self.stabilisation * sheet.thickness**2 / size2, self.largest_share)
+    def share(self, section: Section) -> float:
+        """The share for a section's thickness and element size."""
+        size2 = section.patch.size_around * section.patch.size_along
+        return min(self.stabilisation * section.thickness**2 / size2, self.largest_share)
 
-    def kernel(self, sheet: SheetModel) -> CornerKernel:
-        return CornerKernel(sheet, self.share(sheet))
+    def kernel(self, section: Section) -> CornerKernel:
+        return CornerKernel(section, self.share(section))
 
 
 class CornerKernel(SampledKernel):
     """The tangent of the general kernel, the force of the vectorised one."""
 
-    def __init__(self, sheet: SheetModel, share: float):
-        super().__init__(sheet, corner(share))
-        patch = sheet.patch
-        self._data = corner_kernel.pack(self._samples, sheet.law, patch.periodic)
+    def __init__(self, section: Section, share: float):
+        super().__init__(section, corner(share))
+        patch = section.patch
+        self._data = corner_kernel.pack(self._samples, section.stiffness, patch.periodic)
         self._spacings = (patch.size_around, patch.size_along)
-        self._factors = (sheet.thickness**2 / 12, share)
+        self._factors = (section.thickness**2 / 12, share)
 
     def force(self, points: np.ndarray, out: np.ndarray) -> np.ndarray:
         return corner_kernel.internal_force(
-            points, self._sheet.patch.elements_around, self._data, self._spacings, self._factors,
+            points, self._section.patch.elements_around, self._data, self._spacings, self._factors,
             out,
         )  # fmt: skip

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numba import njit
 
 from foilstudy.model.patch import Patch
 from foilstudy.model.shell.elements import one_point_kernel
-
-if TYPE_CHECKING:
-    from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.geometry import reference_geometry
+from foilstudy.model.shell.section import Section
 
 _VALUE = np.array([0.125, 0.75, 0.125])
 _SLOPE = np.array([-0.5, 0.0, 0.5])
@@ -34,28 +32,33 @@ class OnePoint:
     stabilisation: float = 0.05
     name: str = "one_point"
 
-    def kernel(self, sheet: SheetModel) -> _Kernel:
-        return _Kernel(sheet, self.stabilisation)
+    def kernel(self, section: Section) -> _Kernel:
+        return _Kernel(section, self.stabilisation)
 
 
 class _Kernel:
-    def __init__(self, sheet: SheetModel, stabilisation: float):
-        self._sheet = sheet
-        self._elements = one_point_kernel.pack(sheet.geometry, sheet.law)
-        self._scales = one_point_kernel.scales(sheet.patch, sheet.thickness, stabilisation)
+    def __init__(self, section: Section, stabilisation: float):
+        self._section = section
+        patch = section.patch
+        # with the first derivatives of the membrane strain, which the stabilisation needs
+        self._geometry = reference_geometry(
+            section.reference, patch.elements_around, patch.size_around, patch.size_along
+        )
+        self._elements = one_point_kernel.pack(self._geometry, section.stiffness)
+        self._scales = one_point_kernel.scales(section.patch, section.thickness, stabilisation)
 
     def force(self, points: np.ndarray, out: np.ndarray) -> np.ndarray:
         return one_point_kernel.internal_force(
-            points, self._sheet.patch.elements_around, self._elements, *self._scales, out
+            points, self._section.patch.elements_around, self._elements, *self._scales, out
         )
 
     def tangent_blocks(self, points: np.ndarray | None) -> np.ndarray:
-        sheet = self._sheet
+        section = self._section
         around, _ = self._scales
-        shape = sheet.reference if points is None else points
+        shape = section.reference if points is None else points
         return _assemble(
-            np.ascontiguousarray(shape), sheet.patch.elements_around, sheet.geometry, sheet.law,
-            _stencil(sheet.patch), around[2:], points is not None,
+            np.ascontiguousarray(shape), section.patch.elements_around, self._geometry,
+            section.stiffness, _stencil(section.patch), around[2:], points is not None,
         )  # fmt: skip
 
 

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.section import Section
 
 
 class ElementKernel(Protocol):
-    """Energy, force and tangent of one sheet."""
+    """Energy, force and tangent of one section."""
 
     def force(self, points: np.ndarray, out: np.ndarray) -> np.ndarray:
         """Write the derivative of the strain energy; return its three parts, J.
@@ -34,6 +33,6 @@ class Element(Protocol):
 
     name: str
 
-    def kernel(self, sheet: SheetModel) -> ElementKernel:
-        """The element at work on a sheet."""
+    def kernel(self, section: Section) -> ElementKernel:
+        """The element at work on a section."""
         ...

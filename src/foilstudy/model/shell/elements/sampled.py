@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from foilstudy.model.shell.elements import sampled_kernel
-from foilstudy.model.shell.elements.sampling import StrainSampling
-
-if TYPE_CHECKING:
-    from foilstudy.model.shell.sheet_model import SheetModel
+from foilstudy.model.shell.elements.sampling import StrainSampling, staggered
+from foilstudy.model.shell.section import Section
 
 _BASIS = 5
 """a_1, a_2, a_11, a_22, a_12."""
@@ -78,31 +75,41 @@ class Sampled:
     def name(self) -> str:
         return self.sampling.name
 
-    def kernel(self, sheet: SheetModel) -> SampledKernel:
-        return SampledKernel(sheet, self.sampling)
+    def kernel(self, section: Section) -> SampledKernel:
+        return SampledKernel(section, self.sampling)
 
 
 class SampledKernel:
-    """Energy, force and tangent of one sheet with a strain sampling."""
+    """Energy, force and tangent of one section with a strain sampling."""
 
-    def __init__(self, sheet: SheetModel, sampling: StrainSampling):
-        patch = sheet.patch
-        self._sheet = sheet
+    def __init__(self, section: Section, sampling: StrainSampling):
+        patch = section.patch
+        self._section = section
         self._tables = _Tables(sampling, patch.size_around, patch.size_along).arguments
         self._samples = sampled_kernel.reference_samples(
-            sheet.reference, patch.elements_around, *self._tables
+            section.reference, patch.elements_around, *self._tables
         )
 
     def force(self, points: np.ndarray, out: np.ndarray) -> np.ndarray:
         return sampled_kernel.force(points, *self._arguments(), out)
 
     def tangent_blocks(self, points: np.ndarray | None) -> np.ndarray:
-        shape = self._sheet.reference if points is None else points
+        shape = self._section.reference if points is None else points
         return sampled_kernel.assemble(
             np.ascontiguousarray(shape), *self._arguments(), points is not None
         )
 
     def _arguments(self) -> tuple:
-        sheet = self._sheet
-        bend = sheet.thickness**2 / 12
-        return (sheet.patch.elements_around, sheet.law, bend, self._samples, *self._tables)
+        section = self._section
+        bend = section.thickness**2 / 12
+        return (
+            section.patch.elements_around,
+            section.stiffness,
+            bend,
+            self._samples,
+            *self._tables,
+        )
+
+
+STAGGERED = Sampled(staggered())
+"""A second discretisation for the error of a given shape's stiffness; no vectorised kernel."""

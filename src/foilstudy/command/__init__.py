@@ -1,0 +1,53 @@
+"""The console command `foilstudy`, also `python -m foilstudy`: words in, library call, words out.
+
+Cyclopts, as it loads in half the time of Typer, takes the help from numpydoc docstrings, and hands
+options of Snakemake through untouched. What a command works with is imported when it runs: neither
+help nor `--version` may wait for numba.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from importlib.metadata import version
+
+from cyclopts import App
+
+from .check import check
+from .export import export
+from .run import run
+
+__all__ = ["app", "main"]
+
+app = App(
+    name="foilstudy",
+    help="Statics and dynamics of crumpled foil cylinders: from one config file to a report.",
+    version=lambda: version("foilstudy"),
+    result_action="return_value",
+)
+app.register_install_completion_command()
+for command in (check, run, export):
+    app.command(command)
+
+
+def main(words: Sequence[str] | None = None) -> None:
+    """Do what the words say; a problem of theirs is a sentence on stderr and exit code 1.
+
+    Parameters
+    ----------
+    words : sequence of str, optional
+        Those of the command line.
+
+    Raises
+    ------
+    SystemExit
+        With the sentences, or with the exit code.
+    """
+    try:
+        app(words)
+    except ValueError as problem:
+        sys.exit(str(problem))
+    except OSError as problem:
+        if problem.filename is None:  # a fault of the machine, not of the words
+            raise
+        sys.exit(f"{problem.filename}: {problem.strerror}; check path, permissions and disk.")

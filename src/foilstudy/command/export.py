@@ -1,0 +1,54 @@
+"""`foilstudy export`: one realisation into the formats of other tools."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+__all__ = ["export"]
+
+
+def export(
+    folder: Path,
+    /,
+    *,
+    format: str,
+    output: Path | None = None,
+    config: Path | None = None,
+    refinements: int = 0,
+) -> None:
+    """Write one realisation of a finished study for other tools.
+
+    Parameters
+    ----------
+    folder : Path
+        Such as results/NAME/realisations/t500um/h170mm/0.
+    format : str
+        nc, mat: reduced model; uff, csv: dynamic stiffness; vtu, npz: shape; inp: CalculiX; or all.
+    output : Path, optional
+        File, or folder for all formats; else FOLDER/export with the usual names.
+    config : Path, optional
+        YAML file of the study; else the one in results/NAME/cube.nc.
+    refinements : int
+        Halve the elements so often before.
+    """
+    from foilstudy.export import FORMATS, check_format, write
+    from foilstudy.linalg import SolveError
+    from foilstudy.study.sweep.export import contents_of, recorded_task
+
+    names = list(FORMATS) if format == "all" else [format]
+    for name in names:
+        check_format(name)
+    try:
+        contents = contents_of(recorded_task(folder, config), folder / "crumple.nc", refinements)
+        for name in names:
+            path = _destination(folder, FORMATS[name].filename, output, several=format == "all")
+            write(contents, name, path)
+            print(f"wrote {path}")
+    except SolveError as problem:
+        raise ValueError(f"{folder}: {problem}") from None
+
+
+def _destination(folder: Path, filename: str, output: Path | None, several: bool) -> Path:
+    if output is None:
+        return folder / "export" / filename
+    return output / filename if several or output.is_dir() else output

@@ -1,0 +1,72 @@
+"""What an element is given of a sheet: patch, stress-free shape, thickness and material law."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from foilstudy.model.patch import Patch
+from foilstudy.model.shell.geometry import reference_geometry
+from foilstudy.model.shell.material import Law
+
+
+@dataclass(frozen=True, eq=False)
+class Section:
+    """A patch with a stress-free shape and a law; it knows nothing of any element.
+
+    Attributes
+    ----------
+    patch : Patch
+    reference : ndarray, shape (3, rows, columns)
+        Control points of the stress-free shape, m.
+    thickness : float
+        m.
+    law : Law
+
+    Raises
+    ------
+    ValueError
+        If the control points do not fit the patch.
+    """
+
+    patch: Patch
+    reference: np.ndarray
+    thickness: float
+    law: Law
+
+    def __post_init__(self) -> None:
+        if self.reference.shape != self.patch.shape:
+            raise ValueError(
+                f"control points have shape {self.reference.shape}, the patch needs "
+                f"{self.patch.shape}"
+            )
+        object.__setattr__(self, "reference", np.ascontiguousarray(self.reference))
+
+    @cached_property
+    def forms(self) -> np.ndarray:
+        """Fundamental forms at the element middles, shape (elements_along, 6, elements_around).
+
+        a_11, a_22, 2 a_12 (m2 per unit of parameter), b_11, b_22, 2 b_12.
+        """
+        patch = self.patch
+        return reference_geometry(
+            self.reference, patch.elements_around, patch.size_around, patch.size_along
+        )[:, :6]
+
+    @cached_property
+    def stiffness(self) -> np.ndarray:
+        """Membrane stiffness times the parameter area of an element, see `Law`, N m.
+
+        Shape (elements_along, 6, elements_around).
+        """
+        area = self.patch.size_around * self.patch.size_along
+        return area * self.law.membrane_stiffness(self.forms, self.thickness)
+
+    @property
+    def areas(self) -> np.ndarray:
+        """Stress-free area of each element, shape (elements_along, elements_around), m2."""
+        g = self.forms
+        det = g[:, 0] * g[:, 1] - 0.25 * g[:, 2] ** 2
+        return np.sqrt(det) * self.patch.size_around * self.patch.size_along
