@@ -1,4 +1,4 @@
-"""Compile every numba kernel once, so that parallel jobs only read the cache."""
+"""Load every numba kernel, compiling what is not in the cache yet, before any job starts."""
 
 from __future__ import annotations
 
@@ -9,31 +9,40 @@ from foilstudy.base.outcome import USABLE
 from foilstudy.config import load_config
 
 
-def compile_kernels() -> None:
+def compile_kernels() -> bool:
     """Run one very small realisation with every element from end to end.
+
+    Returns
+    -------
+    bool
+        Whether anything had to be compiled, rather than read from the cache.
 
     Raises
     ------
     RuntimeError
         If one of them fails.
     """
+    from numba.core import event
+
     from foilstudy.base.record import read_record
     from foilstudy.model.shell.elements import ELEMENTS
     from foilstudy.study.sweep.crumple import crumple
     from foilstudy.study.sweep.respond import respond
 
-    for element in ELEMENTS:
-        study = load_config(_smallest(element))
-        (cell,) = study.cells()
-        with tempfile.TemporaryDirectory() as folder:
-            paths = Path(folder) / "crumple.nc", Path(folder) / "response.nc"
-            crumple(study.crumple_task(cell), paths[0])
-            respond(study.response_task(cell), *paths)
-            _, attributes = read_record(paths[1])
-        if attributes["status"] not in USABLE:
-            raise RuntimeError(
-                f"the kernels of {element} do not work on this machine: {attributes['message']}"
-            )
+    with event.install_recorder("numba:compile") as compiled:
+        for element in ELEMENTS:
+            study = load_config(_smallest(element))
+            (cell,) = study.cells()
+            with tempfile.TemporaryDirectory() as folder:
+                paths = Path(folder) / "crumple.nc", Path(folder) / "response.nc"
+                crumple(study.crumple_task(cell), paths[0])
+                respond(study.response_task(cell), *paths)
+                _, attributes = read_record(paths[1])
+            if attributes["status"] not in USABLE:
+                raise RuntimeError(
+                    f"the kernels of {element} do not work on this machine: {attributes['message']}"
+                )
+    return bool(compiled.buffer)
 
 
 def _smallest(element: str) -> dict:
