@@ -58,6 +58,7 @@ def work(again: bool) -> None:
     with tempfile.TemporaryDirectory(prefix="foilstudy-") as folder:
         listener = _listening(f"{folder}/worker")
         print(listener.getsockname() if listener else "", flush=True)
+        os.dup2(2, 1)  # nobody reads on
         if listener:
             _Worker(listener).serve()
 
