@@ -10,7 +10,8 @@ from foilstudy.config import load_config
 
 
 def compile_kernels() -> bool:
-    """Run one very small realisation with every element from end to end.
+    """Run one very small realisation with every element from end to end, and what only studies of
+    elements need besides.
 
     Returns
     -------
@@ -42,14 +43,33 @@ def compile_kernels() -> bool:
                 raise RuntimeError(
                     f"the kernels of {element} do not work on this machine: {attributes['message']}"
                 )
+        _general_force()
     return bool(compiled.buffer)
+
+
+def _general_force() -> None:
+    """Force by the kernel for any strain sampling; a realisation needs its tangent alone."""
+    import numpy as np
+
+    from foilstudy.config.scene import foil_of, patch_of
+    from foilstudy.model.patch import cylinder_control_points
+    from foilstudy.model.shell.elements import STAGGERED
+    from foilstudy.model.shell.sheet_model import SheetModel
+
+    study = load_config(_smallest("corner"))
+    (cell,) = study.cells()
+    task = study.crumple_task(cell)
+    foil, patch = foil_of(task), patch_of(task)
+    points = cylinder_control_points(patch, foil.diameter)
+    sheet = SheetModel(patch, points, foil.material, foil.thickness, STAGGERED)
+    sheet.force(points, np.empty_like(points))
 
 
 def _smallest(element: str) -> dict:
     return {
         "study": {"name": "warmup"},
         "sweep": {"thickness_um": [500], "reference_height_mm": [150], "realisations": 1},
-        "mesh": {"element_size_mm": 15, "element": element},
-        "relaxation": {"ramp_steps": 200},
+        "mesh": {"element_size_mm": 18, "element": element},
+        "relaxation": {"ramp_steps": 100},
         "dynamics": {"shown_max_hz": 50},
     }
