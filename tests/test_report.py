@@ -647,8 +647,7 @@ def test_costs_add_up(study):
     assert {cost.stage: cost.total_s for cost in health.costs}["crumple"] == pytest.approx(81)
     jobs = {job["rule"]: job for job in health.jobs}
     assert jobs["crumple"]["jobs"] == 2 and jobs["crumple"]["wall_s"] == pytest.approx(5)
-    assert jobs["crumple"]["cpu_s"] == pytest.approx(4.5)
-    assert math.isnan(jobs["cube"]["memory_mb"])
+    assert jobs["cube"]["wall_s"] == pytest.approx(0.1)
     assert "nan" not in words(page).lower().split()
 
 

@@ -12,6 +12,8 @@ import pytest
 import xarray as xr
 import yaml
 
+from foilstudy.present.figures import FIGURES
+
 ROOT = Path(__file__).parents[1]
 TINY = yaml.safe_load((ROOT / "config/tiny.yaml").read_text(encoding="utf-8"))
 SNAKEMAKE = str(Path(sys.executable).with_name("snakemake"))
@@ -77,9 +79,7 @@ def test_tiny_study_has_one_job_per_step_and_realisation(tmp_path):
         "cylinder": 1,
         "cube": 1,
         "tables": 1,
-        "figures_cube": 1,
-        "figures_shapes": 1,
-        "figures_modes": 1,
+        "figure": len(FIGURES),
         "report": 1,
         "study": 1,
     }

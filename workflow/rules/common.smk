@@ -40,11 +40,13 @@ CELLS = STUDY.cells()
 RESULTS_LOCKS = []
 # Results of another release of the package count as outdated, like those of another task.
 VERSION = version("foilstudy")
-# The interpreter that runs Snakemake, whether or not its environment is activated. Plain commands
-# can be repeated by hand, and spare each job the import of Snakemake by `script:`.
-# -P keeps a script's own folder from hiding modules.
+# The interpreter that runs Snakemake, whether or not its environment is activated. A rule writes
+# "{RUN}/NAME.py arguments". Plain commands can be repeated by hand, and spare each job the import
+# of Snakemake by `script:`; job.py spares it that of everything else, where there is a worker.
 SCRIPTS = str(Path(workflow.basedir, "workflow/scripts"))
-RUN = f"{shlex.quote(sys.executable)} -P {shlex.quote(SCRIPTS)}"
+RUN = f"{shlex.quote(sys.executable)} -I -S {shlex.quote(SCRIPTS)}/job.py {shlex.quote(SCRIPTS)}"
+# Another study's: this one may be a job of it, or run on another machine.
+os.environ.pop("FOILSTUDY_WORKER", None)
 
 CELL = "{thickness}/{overlength}/{seed}"
 CELL_FLAT = "{thickness}_{overlength}_{seed}"
@@ -117,18 +119,27 @@ def claim_results():
             logger.warning(f"{folder}: not locked ({problem.strerror}); start no second run on it.")
 
 
-def compile_kernels():
-    """Fill the kernel cache before the fan-out: two processes writing it at once have crashed.
+def start_worker():
+    """Fill the kernel cache before the fan-out, and keep a process that has everything loaded.
 
-    In every run rather than as a rule, because the cache belongs to this machine and installation
-    and not to the results.
+    Two processes writing the cache at once have crashed. In every run rather than as a rule,
+    because the cache belongs to this machine and installation and not to the results. The worker
+    ends with this process, however that ends, as its standard input does.
     """
-    log = Path(LOGS, "compile.log")
+    global worker
+    log = Path(LOGS, "worker.log")
     log.parent.mkdir(parents=True, exist_ok=True)
-    with log.open("w") as output:
-        command = [sys.executable, "-P", f"{SCRIPTS}/compile.py"]
-        if subprocess.run(command, stdout=output, stderr=subprocess.STDOUT).returncode:
-            refuse(f"the kernels could not be compiled; {log} says why.")
+    command = [sys.executable, "-P", f"{SCRIPTS}/worker.py"]
+    with log.open("w") as errors:
+        # -P keeps a script's own folder from hiding modules.
+        worker = subprocess.Popen(
+            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=errors, text=True
+        )
+    ready = worker.stdout.readline()
+    if not ready:
+        refuse(f"the kernels could not be compiled; {log} says why.")
+    if ready.strip():
+        os.environ["FOILSTUDY_WORKER"] = ready.strip()
 
 
 check_results()
@@ -136,4 +147,4 @@ check_results()
 
 onstart:
     claim_results()
-    compile_kernels()
+    start_worker()

@@ -17,13 +17,6 @@ TABLES = {
 }
 FIGURE_FILES = expand(f"{RESULTS}/figures/{{name}}.{{kind}}", name=FIGURES, kind=["png", "svg"])
 
-# Figures share a job with those of the same input: loading what draws one costs more than drawing.
-# Those that read responses wait for all of them; the shapes are drawn without.
-FIGURE_JOBS = {"cube": {}, "shapes": {}, "modes": {}}
-for name, figure in FIGURES.items():
-    source = "modes" if "response_paths" in figure.needs else "shapes"
-    FIGURE_JOBS["cube" if "cube" in figure.needs else source][name] = figure
-
 
 rule cube:
     input:
@@ -72,41 +65,41 @@ rule tables:
         "{RUN}/tables.py {input} {RESULTS} > {log} 2>&1"
 
 
-for source, figures in FIGURE_JOBS.items():
+def figure_input(need, files):
+    """The files, as a function of wildcards, where the figure is drawn from them."""
+    return lambda wildcards: files if need in FIGURES[wildcards.figure].needs else []
 
-    rule:
-        name:
-            f"figures_{source}"
-        input:
-            cube=rules.cube.output,
-            crumples=CRUMPLES if source != "cube" else [],
-            responses=RESPONSES if source == "modes" else [],
-        output:
-            [
-                report(
-                    f"{RESULTS}/figures/{name}.png",
-                    caption="../report/figures.rst",
-                    category="Figures",
-                    labels={"figure": figure.title},
-                )
-                for name, figure in figures.items()
-            ],
-            expand(f"{RESULTS}/figures/{{name}}.svg", name=figures),
-        params:
-            names=list(figures),
-            captions={figure.title: figure.caption for figure in figures.values()},
-            version=VERSION,
-        log:
-            f"{LOGS}/figures_{source}.log",
-        benchmark:
-            f"{BENCHMARKS}/figures_{source}.tsv"
-        resources:
-            mem_mb=1000,
-        message:
-            f"figures of the {source}"
-        shell:
-            "{RUN}/figures.py {RESULTS}/figures {input.cube}"
-            " --figures {params.names} --crumples {input.crumples} > {log} 2>&1"
+
+# The shapes need no cube and are the longest to draw: they fill the cores while responses end.
+rule figure:
+    input:
+        cube=figure_input("cube", rules.cube.output),
+        crumples=figure_input("crumple_paths", CRUMPLES),
+        responses=figure_input("response_paths", RESPONSES),
+    output:
+        report(
+            f"{RESULTS}/figures/{{figure}}.png",
+            caption="../report/figure.rst",
+            category="Figures",
+            labels=lambda wildcards: {"figure": FIGURES[wildcards.figure].title},
+        ),
+        f"{RESULTS}/figures/{{figure}}.svg",
+    params:
+        title=lambda wildcards: FIGURES[wildcards.figure].title,
+        caption=lambda wildcards: FIGURES[wildcards.figure].caption,
+        version=VERSION,
+    log:
+        f"{LOGS}/figures/{{figure}}.log",
+    benchmark:
+        f"{BENCHMARKS}/figures/{{figure}}.tsv"
+    resources:
+        mem_mb=1000,
+    wildcard_constraints:
+        figure="|".join(FIGURES),
+    message:
+        "figure {wildcards.figure}"
+    shell:
+        "{RUN}/figure.py {wildcards.figure} {RESULTS} {input.crumples} > {log} 2>&1"
 
 
 rule report:

@@ -6,6 +6,7 @@ import os
 import platform
 import subprocess
 from datetime import UTC, datetime
+from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
@@ -52,8 +53,12 @@ def package_versions() -> str:
     return ", ".join(found)
 
 
+@cache
 def git_commit() -> str:
-    """Commit of the source that runs, ``-dirty`` behind it if changed since; else ``unknown``."""
+    """Commit of the source that runs, ``-dirty`` behind it if changed since; else ``unknown``.
+
+    As it was at the first call: what changes later is not what this process has loaded.
+    """
     try:
         # An installed copy may lie inside an unrelated repository, which does not track it.
         _git("ls-files", "--error-unmatch", "__init__.py")

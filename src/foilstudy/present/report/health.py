@@ -70,8 +70,8 @@ class Health:
     peak_memory_mb
         Largest memory of a job [MB]; None when not recorded.
     jobs
-        Per rule: jobs, wall time [s], CPU time [s], largest memory [MB]; from the workflow's
-        benchmark files.
+        Per rule: jobs and wall time [s], from the workflow's benchmark files. What else these hold
+        is of the process that waits for the job in the worker.
     """
 
     counts: dict[str, int]
@@ -178,21 +178,9 @@ def _jobs(folder: Path | None) -> tuple[dict, ...]:
     for path in sorted(Path(folder).rglob("*.tsv")):
         rule = path.relative_to(folder).parts[0].removesuffix(".tsv")
         table = pd.read_csv(path, sep="\t", na_values="-")
-        rows.append(
-            {
-                "rule": rule,
-                "wall_s": table["s"].sum(),
-                "cpu_s": table["cpu_time"].sum(),
-                "memory_mb": table["max_rss"].max(),
-            }
-        )
+        rows.append({"rule": rule, "wall_s": table["s"].sum()})
     if not rows:
         return ()
     grouped = pd.DataFrame(rows).groupby("rule", sort=True)
-    summary = grouped.agg(
-        jobs=("rule", "size"),
-        wall_s=("wall_s", "sum"),
-        cpu_s=("cpu_s", "sum"),
-        memory_mb=("memory_mb", "max"),
-    )
+    summary = grouped.agg(jobs=("rule", "size"), wall_s=("wall_s", "sum"))
     return tuple(summary.reset_index().to_dict("records"))

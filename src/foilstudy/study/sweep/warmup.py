@@ -1,4 +1,4 @@
-"""Compile every numba kernel once, so that parallel jobs only read the cache."""
+"""Load every numba kernel, compiling what is not in the cache yet, before any job starts."""
 
 from __future__ import annotations
 
@@ -9,38 +9,67 @@ from foilstudy.base.outcome import USABLE
 from foilstudy.config import load_config
 
 
-def compile_kernels() -> None:
-    """Run one very small realisation with every element from end to end.
+def compile_kernels() -> bool:
+    """Run one very small realisation with every element from end to end, and what only studies of
+    elements need besides.
+
+    Returns
+    -------
+    bool
+        Whether anything had to be compiled, rather than read from the cache.
 
     Raises
     ------
     RuntimeError
         If one of them fails.
     """
+    from numba.core import event
+
     from foilstudy.base.record import read_record
     from foilstudy.model.shell.elements import ELEMENTS
     from foilstudy.study.sweep.crumple import crumple
     from foilstudy.study.sweep.respond import respond
 
-    for element in ELEMENTS:
-        study = load_config(_smallest(element))
-        (cell,) = study.cells()
-        with tempfile.TemporaryDirectory() as folder:
-            paths = Path(folder) / "crumple.nc", Path(folder) / "response.nc"
-            crumple(study.crumple_task(cell), paths[0])
-            respond(study.response_task(cell), *paths)
-            _, attributes = read_record(paths[1])
-        if attributes["status"] not in USABLE:
-            raise RuntimeError(
-                f"the kernels of {element} do not work on this machine: {attributes['message']}"
-            )
+    with event.install_recorder("numba:compile") as compiled:
+        for element in ELEMENTS:
+            study = load_config(_smallest(element))
+            (cell,) = study.cells()
+            with tempfile.TemporaryDirectory() as folder:
+                paths = Path(folder) / "crumple.nc", Path(folder) / "response.nc"
+                crumple(study.crumple_task(cell), paths[0])
+                respond(study.response_task(cell), *paths)
+                _, attributes = read_record(paths[1])
+            if attributes["status"] not in USABLE:
+                raise RuntimeError(
+                    f"the kernels of {element} do not work on this machine: {attributes['message']}"
+                )
+        _general_force()
+    return bool(compiled.buffer)
+
+
+def _general_force() -> None:
+    """Force by the kernel for any strain sampling; a realisation needs its tangent alone."""
+    import numpy as np
+
+    from foilstudy.config.scene import foil_of, patch_of
+    from foilstudy.model.patch import cylinder_control_points
+    from foilstudy.model.shell.elements import STAGGERED
+    from foilstudy.model.shell.sheet_model import SheetModel
+
+    study = load_config(_smallest("corner"))
+    (cell,) = study.cells()
+    task = study.crumple_task(cell)
+    foil, patch = foil_of(task), patch_of(task)
+    points = cylinder_control_points(patch, foil.diameter)
+    sheet = SheetModel(patch, points, foil.material, foil.thickness, STAGGERED)
+    sheet.force(points, np.empty_like(points))
 
 
 def _smallest(element: str) -> dict:
     return {
         "study": {"name": "warmup"},
         "sweep": {"thickness_um": [500], "reference_height_mm": [150], "realisations": 1},
-        "mesh": {"element_size_mm": 15, "element": element},
-        "relaxation": {"ramp_steps": 200},
+        "mesh": {"element_size_mm": 18, "element": element},
+        "relaxation": {"ramp_steps": 100},
         "dynamics": {"shown_max_hz": 50},
     }

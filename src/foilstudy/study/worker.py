@@ -1,0 +1,198 @@
+"""A process that has imports and kernels loaded and forks one child per job of a study.
+
+Starting Python, importing and loading kernels costs a job most of a second, a fork milliseconds.
+`workflow/scripts/job.py` is the other side: it sends its job, lends it its own standard streams,
+and ends as the job ends. Where it finds no worker, it runs the job in a process of its own.
+"""
+
+from __future__ import annotations
+
+import ast
+import ctypes
+import gc
+import json
+import os
+import runpy
+import selectors
+import signal
+import socket
+import sys
+import tempfile
+import traceback
+from contextlib import redirect_stdout, suppress
+from dataclasses import dataclass
+from functools import partial
+from importlib import import_module
+from pathlib import Path
+
+from foilstudy.base.provenance import git_commit
+from foilstudy.study.sweep.warmup import compile_kernels
+
+_STANDARD_STREAMS = 3
+_REQUEST_TIMEOUT_S = 10.0
+_PR_SET_PDEATHSIG = 1
+
+
+def work(again: bool) -> None:
+    """Load every kernel, print the path of the worker's socket, and serve to the end of the study.
+
+    That end is the end of standard input, whose other side the study holds. Where there can be no
+    worker the path is empty, and the kernel cache is full all the same.
+
+    Parameters
+    ----------
+    again : bool
+        Whether this is the process after the one that compiled.
+
+    Raises
+    ------
+    RuntimeError
+        If a kernel does not work on this machine.
+    """
+    with redirect_stdout(sys.stderr):
+        compiled = compile_kernels()
+    if compiled and not again:
+        # A kernel just compiled may differ in its last bits from the same one out of the cache.
+        os.execv(sys.executable, [sys.executable, *sys.orig_argv[1:], "again"])
+    git_commit()  # that of the code loaded here; it may change before a job asks
+    with tempfile.TemporaryDirectory(prefix="foilstudy-") as folder:
+        listener = _listening(f"{folder}/worker")
+        print(listener.getsockname() if listener else "", flush=True)
+        os.dup2(2, 1)  # nobody reads on
+        if listener:
+            _Worker(listener).serve()
+
+
+def _listening(path: str) -> socket.socket | None:
+    """None where processes cannot be watched (Linux can since 5.3), or the path is too long."""
+    try:
+        os.close(os.pidfd_open(os.getpid()))
+        listener = socket.socket(socket.AF_UNIX)
+        listener.bind(path)
+        listener.listen(128)
+    except (AttributeError, OSError):
+        return None
+    return listener
+
+
+@dataclass(frozen=True, eq=False)
+class _Job:
+    """A child, a descriptor that tells its end, and the connection to who waits for it."""
+
+    process: int
+    ended: int
+    client: socket.socket
+
+
+class _Worker:
+    def __init__(self, listener: socket.socket):
+        self._listener = listener
+        self._jobs: set[_Job] = set()
+        self._serving = True
+        # every descriptor is registered with what to do when it has something to tell
+        self._selector = selectors.DefaultSelector()
+        self._selector.register(listener, selectors.EVENT_READ, self._start)
+        self._selector.register(0, selectors.EVENT_READ, self._stop)
+
+    def serve(self) -> None:
+        # Ctrl-C reaches the whole group: it ends the study, and that ends the worker.
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        while self._serving:
+            for key, _ in self._selector.select():
+                key.data()
+
+    def _stop(self) -> None:
+        self._serving = False
+        for job in self._jobs:
+            os.kill(job.process, signal.SIGKILL)
+
+    def _start(self) -> None:
+        client, _ = self._listener.accept()
+        client.settimeout(_REQUEST_TIMEOUT_S)
+        streams: list[int] = []
+        try:
+            _, streams, *_ = socket.recv_fds(client, 1, _STANDARD_STREAMS)
+            with client.makefile("rb") as request:
+                order = json.loads(request.readline())
+            _load_imports(order["command"][0])
+            process = _forked(order, streams)
+        except (OSError, ValueError):  # the client is gone, or there is no memory for a process
+            client.close()
+            return
+        finally:
+            for stream in streams:
+                os.close(stream)
+        job = _Job(process, os.pidfd_open(process), client)
+        self._jobs.add(job)
+        self._selector.register(job.ended, selectors.EVENT_READ, partial(self._finish, job))
+        # A client has no more to say: this is its end, and takes its job with it.
+        self._selector.register(client, selectors.EVENT_READ, partial(self._cancel, job))
+
+    def _cancel(self, job: _Job) -> None:
+        if job in self._jobs:
+            os.kill(job.process, signal.SIGKILL)
+            self._selector.unregister(job.client)
+
+    def _finish(self, job: _Job) -> None:
+        self._jobs.remove(job)
+        _, status = os.waitpid(job.process, 0)
+        with suppress(OSError):  # a client that has ended
+            job.client.sendall(b"%d\n" % os.waitstatus_to_exitcode(status))
+        self._selector.unregister(job.ended)
+        os.close(job.ended)
+        with suppress(KeyError):  # cancelled
+            self._selector.unregister(job.client)
+        job.client.close()
+
+
+def _load_imports(script: str) -> None:
+    """Import what a script imports, so that the next job of its kind finds it loaded."""
+    with suppress(Exception):  # the job will meet it too, and say so in its log
+        for node in ast.parse(Path(script).read_bytes()).body:
+            if isinstance(node, ast.ImportFrom):
+                import_module(node.module)
+            elif isinstance(node, ast.Import):
+                for name in node.names:
+                    import_module(name.name)
+
+
+def _forked(order: dict, streams: list[int]) -> int:
+    """Process number of a new child that carries out the order."""
+    gc.freeze()  # else a collection in the child would write to every page, and so copy it
+    worker = os.getpid()
+    process = os.fork()
+    if process == 0:
+        status = 1
+        try:
+            ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+            if os.getppid() == worker:
+                status = _carried_out(order, streams)
+        finally:
+            os._exit(status)  # past the worker's own clean-up
+    return process
+
+
+def _carried_out(order: dict, streams: list[int]) -> int:
+    """Exit status of the script, run as by a Python of its own."""
+    try:
+        for number, stream in enumerate(streams):
+            os.dup2(stream, number)
+        os.closerange(_STANDARD_STREAMS, os.sysconf("SC_OPEN_MAX"))  # of worker and other jobs
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        os.chdir(order["folder"])
+        os.environ.clear()
+        os.environ.update(order["environment"])
+        sys.argv = order["command"]
+        runpy.run_path(sys.argv[0], run_name="__main__")
+        sys.stdout.flush()
+    except SystemExit as stop:
+        sys.stdout.flush()
+        if isinstance(stop.code, int | None):
+            return stop.code or 0
+        print(stop.code, file=sys.stderr)
+        return 1
+    except BaseException:
+        sys.stdout.flush()
+        traceback.print_exc()
+        return 1
+    return 0

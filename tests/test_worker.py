@@ -1,0 +1,179 @@
+"""A job of the worker: as one of its own, and gone when the study or its client is."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+SCRIPTS = Path(__file__).parents[1] / "workflow/scripts"
+JOB = [sys.executable, "-I", "-S", str(SCRIPTS / "job.py")]
+# Holds the worker as a study does, says where it is, and waits to be killed.
+STUDY = """
+import subprocess, sys, time
+worker = subprocess.Popen(sys.argv[1:], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+print(worker.pid, worker.stdout.readline(), end="", flush=True)
+time.sleep(600)
+"""
+NAP = """
+import os, sys, time
+from pathlib import Path
+Path(sys.argv[1]).write_text(str(os.getpid()))
+time.sleep(600)
+"""
+
+pytestmark = pytest.mark.skipif(not hasattr(os, "pidfd_open"), reason="no worker on this system")
+
+
+class Study:
+    """A process that holds a worker."""
+
+    def __init__(self):
+        command = [sys.executable, "-c", STUDY, sys.executable, "-P", str(SCRIPTS / "worker.py")]
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+        worker, self.socket = self.process.stdout.readline().split()
+        self.worker = int(worker)
+
+    def kill(self):
+        self.process.kill()
+        self.process.wait()
+        self.process.stdout.close()
+
+
+@pytest.fixture(scope="module")
+def worker():
+    study = Study()
+    yield study.socket
+    study.kill()
+
+
+def script(folder, content):
+    path = folder / "script.py"
+    path.write_text(content, encoding="utf-8")
+    return str(path)
+
+
+def environment(socket):
+    return os.environ | {"FOILSTUDY_WORKER": str(socket)}
+
+
+def run(socket, folder, content, *words):
+    command = [*JOB, script(folder, content), *words]
+    return subprocess.run(
+        command, env=environment(socket), cwd=folder, capture_output=True, text=True, check=False
+    )
+
+
+@pytest.fixture(params=["in the worker", "in a process of its own"])
+def socket(request, tmp_path, worker):
+    return worker if request.param == "in the worker" else tmp_path / "nobody"
+
+
+def test_a_job_writes_says_and_ends_what_its_script_does(socket, tmp_path):
+    content = (
+        "import sys; open('file', 'w').write(sys.argv[1]); print('out'); "
+        "print('err', file=sys.stderr); sys.exit(7)"
+    )
+    job = run(socket, tmp_path, content, "wörd with 'quotes'")
+    assert (job.returncode, job.stdout, job.stderr) == (7, "out\n", "err\n")
+    assert (tmp_path / "file").read_text() == "wörd with 'quotes'"
+
+
+def test_a_job_gets_the_environment_of_its_command(socket, tmp_path, monkeypatch):
+    monkeypatch.setenv("OF_THIS_JOB", "alone")
+    monkeypatch.delenv("HOME", raising=False)
+    content = "import os; print(os.environ['OF_THIS_JOB'], 'HOME' in os.environ)"
+    assert run(socket, tmp_path, content).stdout == "alone False\n"
+
+
+@pytest.mark.parametrize(
+    ("content", "code", "said"),
+    [
+        ("print('done')", 0, ""),
+        ("import sys; sys.exit('missed')", 1, "missed"),
+        ("import no_such_module", 1, "ModuleNotFoundError: No module named 'no_such_module'"),
+    ],
+)
+def test_a_job_fails_as_its_script_does(socket, tmp_path, content, code, said):
+    job = run(socket, tmp_path, content)
+    assert job.returncode == code
+    assert job.stderr.strip().endswith(said)
+
+
+@pytest.mark.parametrize("name", ["SIGSEGV", "SIGKILL"])
+def test_a_crash_is_named(worker, tmp_path, name):
+    number = getattr(signal, name)
+    job = run(worker, tmp_path, f"import os; os.kill(os.getpid(), {int(number)})")
+    assert job.returncode == 128 + number
+    (line,) = job.stderr.splitlines()
+    assert line.startswith(f"script.py: ended by {name}")
+    assert run(worker, tmp_path, "print('still here')").stdout == "still here\n"
+
+
+def test_a_job_finds_the_modules_of_the_worker_loaded(worker, tmp_path):
+    content = "import sys; print('foilstudy.study.sweep.crumple' in sys.modules)"
+    assert run(worker, tmp_path, content).stdout == "True\n"
+    # what one script imports is there for the next
+    run(worker, tmp_path, "import this")
+    assert run(worker, tmp_path, "import sys; print('this' in sys.modules)").stdout == "True\n"
+
+
+def asleep(socket, folder):
+    """Client of a job that sleeps, and the number of the process that does."""
+    noted = folder / "process"
+    command = [*JOB, script(folder, NAP), str(noted)]
+    client = subprocess.Popen(command, env=environment(socket), stderr=subprocess.PIPE, text=True)
+    wait_until(lambda: noted.exists() and noted.read_text())
+    return client, int(noted.read_text())
+
+
+def wait_until(condition):
+    end = time.monotonic() + 10
+    while not condition():
+        assert time.monotonic() < end
+        time.sleep(0.01)
+
+
+def is_gone(process):
+    """Whether a process has ended; one that nobody has asked for yet counts as well."""
+    try:
+        state = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0]
+    except FileNotFoundError:
+        return True
+    return state == "Z"
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
+def test_a_killed_client_takes_its_job_along(worker, tmp_path, number):
+    client, process = asleep(worker, tmp_path)
+    client.send_signal(number)
+    assert client.communicate() == (None, "")
+    wait_until(lambda: is_gone(process))
+    assert run(worker, tmp_path, "print('still here')").stdout == "still here\n"
+
+
+def test_worker_and_jobs_end_with_a_killed_study(tmp_path):
+    study = Study()
+    client, process = asleep(study.socket, tmp_path)
+    study.kill()
+    wait_until(lambda: is_gone(process) and is_gone(study.worker))
+    _, said = client.communicate()
+    assert client.returncode != 0
+    assert len(said.splitlines()) == 1
+    wait_until(lambda: not Path(study.socket).parent.exists())
+
+
+def test_jobs_end_with_a_killed_worker(tmp_path):
+    study = Study()
+    client, process = asleep(study.socket, tmp_path)
+    os.kill(study.worker, signal.SIGKILL)
+    wait_until(lambda: is_gone(process))
+    _, said = client.communicate()
+    assert client.returncode == 1
+    assert said.startswith("script.py: the worker of the study ended before this job")
+    study.kill()
+    Path(study.socket).unlink()
+    Path(study.socket).parent.rmdir()

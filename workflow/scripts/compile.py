@@ -1,5 +1,0 @@
-"""Fill the kernel cache: compile.py."""
-
-from foilstudy.study.sweep.warmup import compile_kernels
-
-compile_kernels()

@@ -1,0 +1,45 @@
+"""Run a script in the worker of the study, or by itself where there is none: job.py SCRIPT WORD...
+
+Started with -I -S and by the standard library alone, as its own start is all that a job then costs.
+`foilstudy.study.worker` is the other side; its socket is named in FOILSTUDY_WORKER.
+"""
+
+import json
+import os
+import signal
+import socket
+import sys
+
+
+def answer(worker, command):
+    """Exit status of the command, negative for a signal, or nothing if the worker ended before."""
+    order = {"command": command, "folder": os.getcwd(), "environment": dict(os.environ)}
+    try:
+        socket.send_fds(worker, [b"\n"], [0, 1, 2])
+        worker.sendall(json.dumps(order).encode() + b"\n")
+        return worker.makefile().readline()
+    except OSError:
+        return ""
+
+
+def status_of(word, name):
+    """What this process ends with."""
+    if not word:
+        return f"{name}: the worker of the study ended before this job; start the study again"
+    code = int(word)
+    if code >= 0:
+        return code
+    why = ", as by a machine short of memory" if -code == signal.SIGKILL else ""
+    kind = signal.Signals(-code).name
+    print(f"{name}: ended by {kind} ({signal.strsignal(-code)}{why})", file=sys.stderr)
+    return 128 - code
+
+
+command = sys.argv[1:]
+with socket.socket(socket.AF_UNIX) as worker:
+    try:
+        worker.connect(os.environ["FOILSTUDY_WORKER"])
+    except (KeyError, OSError):
+        os.execv(sys.executable, [sys.executable, "-P", *command])
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # a traceback from here would tell nothing
+    sys.exit(status_of(answer(worker, command), os.path.basename(command[0])))
