@@ -8,7 +8,7 @@ import pytest
 
 from foilstudy.base.files import read_json, write_json
 from foilstudy.model.mesh_size import element_size_for, expected_energy_error
-from foilstudy.present.figures.registry import save
+from foilstudy.plot.save import save
 from foilstudy.study.convergence import crumpling, plan, stops
 from foilstudy.study.convergence.analysis import fit, means, slope
 from foilstudy.study.convergence.figures import FIGURES

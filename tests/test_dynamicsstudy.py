@@ -9,7 +9,7 @@ from foilstudy.base.files import read_json, write_json
 from foilstudy.model.foil import Foil
 from foilstudy.model.shell.elements import DEFAULT_ELEMENT
 from foilstudy.pipeline.crumpled import Crumple
-from foilstudy.present.figures.registry import save
+from foilstudy.plot.save import save
 from foilstudy.study.dynamics import measure, plan, records, tables
 from foilstudy.study.dynamics.figures import FIGURES
 

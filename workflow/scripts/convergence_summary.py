@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-from foilstudy.present.figures.registry import save
+from foilstudy.plot.save import save
 from foilstudy.study.convergence.figures import FIGURES
 from foilstudy.study.convergence.records import Study
 from foilstudy.study.convergence.tables import write_crumples, write_markdown, write_stops

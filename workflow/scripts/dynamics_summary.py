@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-from foilstudy.present.figures.registry import save
+from foilstudy.plot.save import save
 from foilstudy.study.dynamics.figures import FIGURES
 from foilstudy.study.dynamics.records import Study
 from foilstudy.study.dynamics.tables import write_chart, write_checks, write_markdown

@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-from foilstudy.present.figures.registry import save
+from foilstudy.plot.save import save
 from foilstudy.study.elements.chart import draw
 from foilstudy.study.elements.summary import Study, write_csv, write_markdown
 

@@ -6,7 +6,7 @@ The SVG goes beside the PNG.
 import sys
 from pathlib import Path
 
-from foilstudy.present.figures.registry import save
+from foilstudy.plot.save import save
 from foilstudy.study.verification.figures import draw
 from foilstudy.study.verification.records import Benchmark
 

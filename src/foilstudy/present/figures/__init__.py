@@ -9,7 +9,6 @@ from foilstudy.present.figures.registry import (
     FigureSpec,
     draw_figure,
     draw_figures,
-    save,
 )
 
-__all__ = ["FIGURES", "FigureInputs", "FigureSpec", "draw_figure", "draw_figures", "save"]
+__all__ = ["FIGURES", "FigureInputs", "FigureSpec", "draw_figure", "draw_figures"]

@@ -1,4 +1,4 @@
-"""Which figures a study has, what each needs, and how they are saved."""
+"""Which figures a study has, and what each needs."""
 
 from __future__ import annotations
 
@@ -7,9 +7,7 @@ from dataclasses import dataclass, field
 from importlib import import_module
 from pathlib import Path
 
-from foilstudy.base.files import written_whole
-
-PNG_DPI = 150
+from foilstudy.plot.save import PNG_DPI, save
 
 
 @dataclass(frozen=True)
@@ -26,6 +24,8 @@ class FigureSpec:
         Inputs of ``draw``: ``cube`` (the open cube), ``crumple_paths``, ``response_paths``.
     options : mapping
         Further keyword arguments of ``draw``.
+    png_dpi : int
+        Dots per inch of the PNG.
     """
 
     title: str
@@ -33,6 +33,7 @@ class FigureSpec:
     module: str
     needs: tuple[str, ...]
     options: Mapping[str, str] = field(default_factory=dict)
+    png_dpi: int = PNG_DPI
 
     def draw(self, **inputs):
         """Return the figure; `inputs` are the ones listed in `needs`."""
@@ -55,6 +56,7 @@ FIGURES: dict[str, FigureSpec] = {
         "Colour: radial displacement from the cylinder, on the published scale.",
         "morphology",
         ("crumple_paths",),
+        png_dpi=100,  # shaded pictures are large
     ),
     "stiffness_axial": FigureSpec(
         "Axial stiffness against overlength",
@@ -208,33 +210,6 @@ FIGURES: dict[str, FigureSpec] = {
 """Figures of the study by id, in the order in which a report shows them."""
 
 
-def save(figure, stem) -> tuple[Path, Path]:
-    """Write ``<stem>.png`` and ``<stem>.svg``; the same figure always gives the same bytes.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-    stem : path without suffix; its folder is made if missing
-
-    Returns
-    -------
-    png, svg : Path
-    """
-    from foilstudy.plot.style import styled
-
-    stem = Path(stem)
-    return tuple(
-        _save_one(styled(figure.savefig), stem.with_name(f"{stem.name}.{suffix}"), metadata)
-        for suffix, metadata in (("png", {"Software": None}), ("svg", {"Date": None}))
-    )
-
-
-def _save_one(savefig, path: Path, metadata: dict) -> Path:
-    with written_whole(path) as partial:
-        savefig(partial, format=path.suffix[1:], dpi=PNG_DPI, metadata=metadata)
-    return path
-
-
 @dataclass(frozen=True)
 class FigureInputs:
     """Files that the figures of one study are drawn from; none is opened without need.
@@ -274,11 +249,11 @@ def draw_figure(figure_id: str, files: FigureInputs, stem) -> tuple[Path, Path]:
     spec = FIGURES[figure_id]
     inputs = {"crumple_paths": files.crumple_paths, "response_paths": files.response_paths}
     if "cube" not in spec.needs:
-        return save(spec.draw(**inputs), stem)
+        return save(spec.draw(**inputs), stem, spec.png_dpi)
     import xarray as xr
 
     with xr.open_dataset(files.cube_path) as cube:
-        return save(spec.draw(cube=cube, **inputs), stem)
+        return save(spec.draw(cube=cube, **inputs), stem, spec.png_dpi)
 
 
 def draw_figures(figure_ids: Iterable[str], files: FigureInputs, out_dir) -> list[Path]:

@@ -14,8 +14,8 @@ import yaml
 
 from foilstudy.base.files import written_whole
 from foilstudy.base.reference import published
+from foilstudy.plot.save import inches_wide
 from foilstudy.present.figures import FIGURES
-from foilstudy.present.figures.registry import PNG_DPI
 from foilstudy.present.report import (
     equilibrium,
     exponents,
@@ -258,10 +258,7 @@ def _picture(folder: Path, stem: str) -> tuple[str, int | None]:
     vector, dots = folder / f"{stem}.svg", folder / f"{stem}.png"
     if vector.exists() and (not dots.exists() or vector.stat().st_size <= SVG_BYTES_MAX):
         return _data_address(vector.read_bytes(), "svg+xml"), None
-    content = dots.read_bytes()
-    # The first chunk of a PNG begins with its width in dots.
-    width = int.from_bytes(content[16:20], "big")
-    return _data_address(content, "png"), round(width * CSS_PIXELS_PER_INCH / PNG_DPI)
+    return _data_address(dots.read_bytes(), "png"), round(inches_wide(dots) * CSS_PIXELS_PER_INCH)
 
 
 def _data_address(content: bytes, kind: str) -> str:
