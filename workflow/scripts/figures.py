@@ -3,7 +3,8 @@
 from argparse import ArgumentParser
 from pathlib import Path
 
-from foilstudy.present.figures import FigureInputs, draw_figures
+from foilstudy.present.figures import draw_figures
+from foilstudy.present.files import StudyFiles
 
 parser = ArgumentParser()
 parser.add_argument("folder", type=Path)
@@ -11,7 +12,5 @@ parser.add_argument("cube_nc", type=Path)
 parser.add_argument("--figures", nargs="+")
 parser.add_argument("--crumples", nargs="*", type=Path)
 arguments = parser.parse_args()
-# the response of a realisation lies beside its crumple
-responses = [crumple.with_name("response.nc") for crumple in arguments.crumples]
-files = FigureInputs(arguments.cube_nc, arguments.crumples, responses)
+files = StudyFiles(arguments.cube_nc, tuple(arguments.crumples))
 draw_figures(arguments.figures, files, arguments.folder)

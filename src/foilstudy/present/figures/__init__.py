@@ -5,10 +5,9 @@ Importing this package does not import matplotlib, so that a workflow can read `
 
 from foilstudy.present.figures.registry import (
     FIGURES,
-    FigureInputs,
     FigureSpec,
     draw_figure,
     draw_figures,
 )
 
-__all__ = ["FIGURES", "FigureInputs", "FigureSpec", "draw_figure", "draw_figures"]
+__all__ = ["FIGURES", "FigureSpec", "draw_figure", "draw_figures"]
