@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from scipy import stats
-from synthetic import EXPONENT, LAW, make_cube
+from synthetic import EXPONENT, FAILED, LAW, make_cube
 
 from foilstudy.base.reference import published
 from foilstudy.present import statistics
@@ -102,7 +102,13 @@ def test_prediction_band_matches_the_textbook_formula():
 
 
 def test_failed_cells_do_not_enter_and_not_converged_ones_do():
-    cube = make_cube(failed=[(0, 0, 2), (3, 4, 0)])
+    cube = make_cube(
+        verdicts={
+            (0, 0, 2): FAILED,
+            (3, 4, 0): FAILED,
+            (1, 1, 1): ("not_converged", "steps used up"),
+        }
+    )
     law = statistics.simulated_law(cube, "axial")
     assert law.fit.n == 118
     assert law.law.beta == pytest.approx(LAW["axial"][1])
@@ -133,7 +139,7 @@ def test_degenerate_sweep_drops_its_regressor(kwargs, lost, note):
 def test_single_realisation_and_no_realisation_give_nan_and_a_note():
     one = make_cube(thickness_um=(500.0,), reference_height_mm=(170.0,), seeds=1)
     none = make_cube(
-        thickness_um=(500.0,), reference_height_mm=(170.0,), seeds=1, failed=[(0, 0, 0)]
+        thickness_um=(500.0,), reference_height_mm=(170.0,), seeds=1, verdicts={(0, 0, 0): FAILED}
     )
     row = statistics.powerlaw_table(one).iloc[0]
     assert np.isnan(row["alpha_se"]) and "no degree of freedom" in row["note"]
@@ -186,7 +192,7 @@ def test_thickness_exponents_of_mesh_limit_and_pre_stress_are_recovered(source, 
 
 
 def test_negative_pre_stressed_values_are_counted_and_leave_the_law_alone():
-    cube = make_cube(failed=[(0, 0, 0)])
+    cube = make_cube(verdicts={(0, 0, 0): FAILED})
     cube["prestressed_stiffness"][3, 4, :2, 0] = [-7.0, 0.0]
     table = statistics.powerlaw_table(cube).set_index(["direction", "source"])
     row = table.loc[("axial", "simulation pre-stressed")]
@@ -261,7 +267,7 @@ def test_eigenfrequency_exponent_is_recovered_beside_the_published_one():
 
 
 def test_summary_compares_each_configuration_with_the_published_fits():
-    cube = noisy_cube(failed=[(3, 2, 5)])
+    cube = noisy_cube(verdicts={(3, 2, 5): FAILED, (3, 2, 1): ("not_converged", "steps used up")})
     table = statistics.stiffness_summary(cube)
     assert len(table) == 40
     row = table[
@@ -278,13 +284,12 @@ def test_summary_compares_each_configuration_with_the_published_fits():
 
 
 def test_write_tables_writes_readable_files_and_leaves_no_temporary(tmp_path):
-    cube_path = tmp_path / "cube.nc"
-    noisy_cube().to_netcdf(cube_path)
-    paths = statistics.write_tables(cube_path, tmp_path / "tables")
+    cube = noisy_cube()
+    paths = statistics.write_tables(cube, tmp_path / "tables")
     assert {p.name for p in (tmp_path / "tables").iterdir()} == {
         f"{name}.csv" for name in statistics.TABLES
     }
     assert len(pd.read_csv(paths[0])) == 2 * 5
     first = [p.read_bytes() for p in paths]
-    again = [p.read_bytes() for p in statistics.write_tables(cube_path, tmp_path / "tables")]
+    again = [p.read_bytes() for p in statistics.write_tables(cube, tmp_path / "tables")]
     assert first == again

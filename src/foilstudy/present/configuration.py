@@ -46,7 +46,8 @@ def material(cube) -> Material | None:
     from foilstudy.config.scene import material_of
     from foilstudy.config.sections import Material as Section
 
+    section = configuration(cube).get("material")
     try:
-        return material_of(Section.model_validate(configuration(cube).get("material", {})))
+        return None if section is None else material_of(Section.model_validate(section))
     except ValidationError:
         return None

@@ -161,6 +161,7 @@ def _content(files: StudyFiles, folder: Path) -> dict:
         "health_words": findings.health_sentence(health),
         "figures": _figures(files.figures),
         "viewer": shapes,
+        "has_records": bool(files.crumple_paths),
         "gradient": _gradient(),
         "style": (TEMPLATES / "report.css").read_text("utf-8"),
         "script": script,
