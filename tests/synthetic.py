@@ -1,4 +1,4 @@
-"""Synthetic cubes and crumples with known answers, for the tests of statistics and figures.
+"""Synthetic cubes and records with known answers, for the tests of statistics, figures and page.
 
 Nothing here is physics: the stiffness follows a prescribed power law with prescribed scatter,
 and the crumple is an analytic wavy cylinder.
@@ -6,17 +6,41 @@ and the crumple is an analytic wavy cylinder.
 
 from __future__ import annotations
 
-import netCDF4
+from collections.abc import Mapping
+from pathlib import Path
+
 import numpy as np
 import xarray as xr
 
+from foilstudy.base.outcome import USABLE
+from foilstudy.base.record import Quantity, write_record
+from foilstudy.config.model import overlength_id, thickness_id
+from foilstudy.model.patch import knot_points
+from foilstudy.study.sweep.cube import CONVENTION
+
 DIRECTIONS = ["axial", "radial"]
 DEFINITIONS = ["transfer", "driving", "relative"]
-LAW = {"axial": (3.6, -0.9, 1.35), "radial": (3.1, -0.5, 1.45)}
+LAW = {"axial": (3.6, -0.9, 1.4), "radial": (3.1, -0.5, 1.42)}
 EXPONENT = -2.2
 MODES_PER_HZ = 0.3
 GAP_HEIGHT_MM = 130.0
 DIAMETER_MM = 200.0
+FAILED = ("failed", "the ring force is not finite at step 12: lower mesh.element_size_mm")
+CONFIG = """\
+sheet: {diameter_mm: 200, gap_height_mm: 130}
+material: {name: FEP, youngs_modulus_mpa: 650, poisson_ratio: 0.4, density_kg_m3: 2150,
+  yield_stress_mpa: 12}
+mesh: {element_size_mm: 5, element: corner}
+relaxation: {residual_tolerance: 1.0e-6, ramp_steps: 2000}
+stiffness: {refinements: 2}
+report: {title: Synthetic study}
+"""
+CELL = ("thickness", "overlength", "seed")
+
+
+def ten_percent(overlength, direction):
+    """A coefficient of variation for `make_cube`."""
+    return 0.1
 
 
 def exact_scatter(rng, n, cv):
@@ -33,93 +57,60 @@ def make_cube(
     reference_height_mm=(135.0, 150.0, 170.0, 200.0, 250.0),
     seeds=6,
     cv=lambda overlength, direction: 0.0,
-    failed=(),
-    rng_seed=1,
+    verdicts: Mapping[tuple[int, int, int], tuple[str, str]] | None = None,
     relaxed_again=False,
 ):
-    """A cube that obeys `LAW` and `EXPONENT`, with scatter `cv`, and `failed` cells (i, j, s).
+    """A cube, as `open_cube` gives it, that obeys `LAW` and `EXPONENT`.
 
-    From the first eigenfrequency on there are `MODES_PER_HZ`.
-
-    Pre-stressed values after relaxing again on refined meshes are there when asked for.
+    The stiffness scatters with `cv`, a function of overlength and direction; from the first
+    eigenfrequency on there are `MODES_PER_HZ`. All realisations converged, but for cells (i, j, s)
+    whose status and message `verdicts` holds. Pre-stressed values after relaxing again on refined
+    meshes are there when asked for.
     """
-    rng = np.random.default_rng(rng_seed)
-    t = np.asarray(thickness_um, float)
-    h = np.asarray(reference_height_mm, float)
+    rng = np.random.default_rng(1)
+    t, h = np.asarray(thickness_um, float), np.asarray(reference_height_mm, float)
     o = 100 * (h - GAP_HEIGHT_MM) / GAP_HEIGHT_MM
     f = np.geomspace(1, 800, 60)
     shape = (t.size, o.size, seeds)
     static = np.empty((*shape, 2))
     for d, direction in enumerate(DIRECTIONS):
-        alpha, beta, gamma = LAW[direction]
+        law = _power_law(direction, o[None, :], t[:, None])
         for i, j in np.ndindex(shape[:2]):
-            mean = np.exp(alpha + beta * np.log(o[j]) + gamma * np.log(t[i]))
-            static[i, j, :, d] = mean * exact_scatter(rng, seeds, cv(o[j], direction))
+            static[i, j, :, d] = law[i, j] * exact_scatter(rng, seeds, cv(o[j], direction))
     f1 = 2e5 * t[:, None, None] ** 0.6 * h[None, :, None] ** EXPONENT
     f1 = f1 * (1 + 0.03 * rng.standard_normal(shape) * (cv(50.0, "axial") > 0))
-    cylinder = 2.4e3 * t[:, None, None] * np.array([1.0, 0.16]) * (130 / h)[None, :, None]
-
     ratio = f / f1[..., None]
-    resonance = np.abs(1 - ratio**2 + 0.1j * ratio)
-    magnitude = static[..., None] * resonance[..., None, :] ** 0.7
-    scale = np.array([1.0, 1.1, 0.9])
-    dynamic = magnitude[:, :, :, None] * scale[:, None, None]
-
-    count = np.maximum(0, np.floor(MODES_PER_HZ * (f - f1[..., None]) + 1))
-
-    status = np.full(shape, "converged", dtype=object)
-    message = np.full(shape, "", dtype=object)
-    if seeds > 1:
-        status[..., 1] = "not_converged"
-    energy = 5e-3 * (t[:, None, None] / 50) ** 1.5 * o[None, :, None] * np.ones(shape)
-    cells = {
-        "first_eigenfrequency": (f1, "Hz"),
-        "membrane_energy": (0.3 * energy, "J"),
-        "bending_energy": (0.6 * energy, "J"),
-        "stabilisation_energy": (energy * 2 / (t[:, None, None] ** 0.75), "J"),
+    magnitude = static[..., None] * np.abs(1 - ratio**2 + 0.1j * ratio)[..., None, :] ** 0.7
+    dynamic = magnitude[:, :, :, None] * np.array([1.0, 1.1, 0.9])[:, None, None] * (0.8 + 0.6j)
+    quantities = {
+        **_cell_quantities(t[:, None, None], o[None, :, None], shape),
+        "first_eigenfrequency": ("Hz", CELL, f1),
+        "mode_count": (
+            "1",
+            (*CELL, "frequency"),
+            np.maximum(0, np.floor(MODES_PER_HZ * (f - f1[..., None]) + 1)),
+        ),
+        **_stiffnesses(t[:, None, None, None], static, relaxed_again),
+        "dynamic_stiffness": ("N/m", (*CELL, "definition", "direction", "frequency"), dynamic),
     }
-    cell_dims = ("thickness", "overlength", "seed")
-    for i, j, s in failed:
-        status[i, j, s] = "failed"
-        message[i, j, s] = "the ring force is not finite at step 12: lower mesh.element_size_mm"
-        static[i, j, s] = np.nan
-        dynamic[i, j, s] = count[i, j, s] = np.nan
-        for values, _ in cells.values():
-            values[i, j, s] = np.nan
-
-    def variable(dims, values, units, name):
-        return xr.Variable(dims, values, {"units": units, "long_name": name.replace("_", " ")})
-
-    data = {name: variable(cell_dims, v, u, name) for name, (v, u) in cells.items()}
-    directed = (*cell_dims, "direction")
-    data["static_stiffness"] = variable(directed, static, "N/m", "static_stiffness")
-    refinement = (t / 500)[:, None, None, None] ** 0.3
-    # The stress takes more from thick foils: its law has a smaller thickness exponent.
-    stressed = 0.5 * (t / 50)[:, None, None, None] ** -0.2 * static
-    relaxed = {
-        "prestressed_stiffness_converged": 0.7 * stressed,
-        "prestressed_stiffness_mesh_error": 0.3 * stressed,
+    status, message = np.full(shape, "converged", object), np.full(shape, "", object)
+    for cell, (outcome, words) in (verdicts or {}).items():
+        status[cell], message[cell] = outcome, words
+        if outcome not in USABLE:
+            for _, _, values in quantities.values():
+                values[cell] = np.nan
+    cylinder = 2.4e3 * t[:, None, None] * np.array([1.0, 0.16]) * (130 / h)[None, :, None]
+    quantities |= {
+        "cylinder_stiffness": ("N/m", ("thickness", "overlength", "direction"), cylinder),
+        "status": ("1", CELL, status),
+        "message": ("1", CELL, message),
     }
-    for name, values in {
-        "static_stiffness_free": 0.8 * static,
-        "prestressed_stiffness": stressed,
-        **(relaxed if relaxed_again else {}),
-        "static_stiffness_converged": refinement * static,
-        "static_stiffness_mesh_error": (1 - refinement) * static,
-    }.items():
-        data[name] = variable(directed, values, "N/m", name)
-    data["cylinder_stiffness"] = variable(
-        ("thickness", "overlength", "direction"), cylinder, "N/m", "cylinder_stiffness"
-    )
-    dynamic_dims = (*cell_dims, "definition", "direction", "frequency")
-    data["dynamic_stiffness_re"] = variable(dynamic_dims, 0.8 * dynamic, "N/m", "dynamic re")
-    data["dynamic_stiffness_im"] = variable(dynamic_dims, 0.6 * dynamic, "N/m", "dynamic im")
-    data["mode_count"] = variable((*cell_dims, "frequency"), count, "1", "mode_count")
-    data["status"] = variable(cell_dims, status, "1", "status")
-    data["message"] = variable(cell_dims, message, "1", "message")
     return xr.Dataset(
-        data,
-        coords={
+        {
+            name: (dims, values, {"units": units, "long_name": name.replace("_", " ")})
+            for name, (units, dims, values) in quantities.items()
+        },
+        {
             "thickness": ("thickness", t, {"units": "um"}),
             "overlength": ("overlength", o, {"units": "%"}),
             "reference_height": ("overlength", h, {"units": "mm"}),
@@ -128,52 +119,130 @@ def make_cube(
             "definition": DEFINITIONS,
             "frequency": ("frequency", f, {"units": "Hz"}),
         },
+        {
+            "Conventions": CONVENTION,
+            "study": "synthetic",
+            "config": CONFIG,
+            "git_commit": "0123abc",
+            "created": "2026-01-01T00:00:00Z",
+        },
     )
 
 
+def _power_law(direction, overlength, thickness):
+    alpha, beta, gamma = LAW[direction]
+    return np.exp(alpha + beta * np.log(overlength) + gamma * np.log(thickness))
+
+
+def _cell_quantities(t, o, shape):
+    """Numbers of a sound study whose thickest foils are no stable equilibria and whose tallest
+    yield."""
+    ones = np.ones(shape)
+    energy = 5e-3 * (t / 50) ** 1.5 * o * ones
+    values = {
+        "membrane_energy": ("J", 0.3 * energy),
+        "bending_energy": ("J", 0.6 * energy),
+        "stabilisation_energy": ("J", 0.1 * energy * 50 / t),
+        "equilibrium_residual": ("1", 1e-7 * ones),
+        "negative_eigenvalues": ("1", np.where(t > 400, 2.0, 0.0) * ones),
+        "steps": ("1", 2000 + 1e6 / t * ones),
+        "newton_steps": ("1", 12 * ones),
+        "element_size": ("mm", 5 * ones),
+        "radial_displacement_min": ("mm", -20 * ones),
+        "radial_displacement_max": ("mm", 30.4 * ones),
+        "beyond_yield_share": ("1", np.where(o > 60, 0.2, 0.0) * ones),
+        "self_crossing_share": ("1", 0 * ones),
+        "seconds_crumple": ("s", 3 * ones),
+        "seconds_static": ("s", 0.5 * ones),
+        "seconds_dynamic": ("s", 1.5 * ones),
+        "peak_memory": ("MB", 400 * ones),
+    }
+    return {name: (units, CELL, array) for name, (units, array) in values.items()}
+
+
+def _stiffnesses(t, static, relaxed_again):
+    refinement = (t / 600) ** 0.3
+    # The stress takes more from thick foils: its law has a smaller thickness exponent.
+    stressed = 0.5 * (t / 50) ** -0.2 * static
+    values = {
+        "static_stiffness": static,
+        "static_stiffness_free": 0.8 * static,
+        "prestressed_stiffness": stressed,
+        "static_stiffness_converged": refinement * static,
+        "static_stiffness_mesh_error": (1 - refinement) * static,
+    }
+    if relaxed_again:
+        values["prestressed_stiffness_converged"] = 0.7 * stressed
+        values["prestressed_stiffness_mesh_error"] = 0.3 * stressed
+    return {name: ("N/m", (*CELL, "direction"), array) for name, array in values.items()}
+
+
+def write_cube(cube, path):
+    """Write a cube as a study does, for `open_cube` to read."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    dynamic = cube["dynamic_stiffness"]
+    cube.drop_vars("dynamic_stiffness").assign(
+        dynamic_stiffness_re=dynamic.real, dynamic_stiffness_im=dynamic.imag
+    ).to_netcdf(path)
+    return path
+
+
+def write_records(cube, folder, element_mm=10.0):
+    """Write crumple.nc and response.nc of every realisation of a cube below a study's folder."""
+    crumples = []
+    for i, j, s in np.ndindex(cube["status"].shape):
+        cell = cube.isel(thickness=i, overlength=j, seed=s)
+        thickness, height = float(cell["thickness"]), float(cell["reference_height"])
+        place = folder / "realisations" / thickness_id(thickness) / overlength_id(height) / str(s)
+        crumple = write_crumple(
+            place / "crumple.nc", thickness, height, s, str(cell["status"].values), element_mm
+        )
+        shapes = np.random.default_rng(s).standard_normal((3, 3, 6, 12))
+        write_response(crumple, shapes)
+        crumples.append(crumple)
+    return crumples
+
+
 def write_crumple(
-    path, thickness_um, reference_height_mm, seed, status="converged", element_mm=5.0
+    path, thickness_um=500.0, reference_height_mm=170.0, seed=0, status="converged", element_mm=5.0
 ):
     """Write a crumple.nc with an analytic wavy surface, or a failed one without arrays."""
-    rng = np.random.default_rng([seed, int(thickness_um), int(reference_height_mm)])
     overlength = 100 * (reference_height_mm - GAP_HEIGHT_MM) / GAP_HEIGHT_MM
-    with netCDF4.Dataset(path, "w") as file:
-        file.setncatts(
-            {
-                "status": status,
-                "message": "" if status == "converged" else "the ring force is not finite",
-                "thickness_um": float(thickness_um),
-                "overlength_percent": overlength,
-                "reference_height_mm": float(reference_height_mm),
-                "seed": seed,
-            }
-        )
-        if status in ("failed", "diverged"):
-            return path
-        _write_shape(file, rng, thickness_um, overlength, reference_height_mm, element_mm)
-        _write_history(file, overlength, reference_height_mm, thickness_um)
+    attributes = {
+        "status": status,
+        "message": "" if status == "converged" else "the ring force is not finite",
+        "thickness_um": float(thickness_um),
+        "overlength_percent": overlength,
+        "reference_height_mm": float(reference_height_mm),
+        "seed": seed,
+    }
+    quantities = {}
+    if status in USABLE:
+        rng = np.random.default_rng([seed, int(thickness_um), int(reference_height_mm)])
+        quantities = _shape(rng, thickness_um, overlength, reference_height_mm, element_mm)
+        quantities |= _history(overlength, reference_height_mm, thickness_um)
+    write_record(path, quantities, attributes)
     return path
 
 
-def write_response(crumple_path, shapes=None, first_hz=50.0):
+def write_response(crumple_path, shapes=None, frequencies=None):
     """Write the response.nc beside a crumple, with mode shapes (mode, 3, rows, columns) or none."""
-    path = crumple_path.with_name("response.nc")
-    with netCDF4.Dataset(path, "w") as file:
-        file.setncatts({"status": "converged", "message": ""})
-        if shapes is None:
-            return path
-        for name, size in zip(("shape_mode", "component", "node_row", "node_column"), shapes.shape):
-            file.createDimension(name, size)
-        variable = file.createVariable("mode_shape", "f4", tuple(file.dimensions))
-        variable[:] = shapes
-        file.createDimension("mode", 20)
-        frequencies = np.full(20, np.nan)
-        frequencies[: len(shapes)] = first_hz + 10.0 * np.arange(len(shapes))
-        file.createVariable("eigenfrequency", "f8", ("mode",))[:] = frequencies
+    path = Path(crumple_path).with_name("response.nc")
+    quantities = {}
+    if shapes is not None:
+        known = 50.0 + 10.0 * np.arange(len(shapes)) if frequencies is None else frequencies
+        eigenfrequencies = np.full(20, np.nan)
+        eigenfrequencies[: len(known)] = known
+        dims = ("shape_mode", "component", "node_row", "node_column")
+        quantities = {
+            "mode_shape": Quantity(shapes.astype("f4"), "m/sqrt(kg m2)", "mode shape", dims),
+            "eigenfrequency": Quantity(eigenfrequencies, "Hz", "eigenfrequency", ("mode",)),
+        }
+    write_record(path, quantities, {"status": "converged", "message": ""})
     return path
 
 
-def _write_shape(file, rng, thickness_um, overlength, reference_height_mm, element):
+def _shape(rng, thickness_um, overlength, reference_height_mm, element):
     rows = int(round(reference_height_mm / element)) + 2
     columns = int(round(np.pi * DIAMETER_MM / element))
     theta = 2 * np.pi * np.arange(columns) / columns
@@ -189,22 +258,18 @@ def _write_shape(file, rng, thickness_um, overlength, reference_height_mm, eleme
     amplitude = 2.0 * overlength**0.5
     r = DIAMETER_MM / 2 + amplitude * window * (np.abs(wave) - np.abs(wave).mean())
     r0 = DIAMETER_MM / 2
-
-    def put(name, dims, values, units):
-        variable = file.createVariable(name, "f8", dims)
-        variable.units, variable.long_name = units, name.replace("_", " ")
-        variable[:] = values
-
-    file.createDimension("component", 3)
-    file.createDimension("row", rows)
-    file.createDimension("column", columns)
     points = np.stack([r * np.cos(T), r * np.sin(T), Z * GAP_HEIGHT_MM]) * 1e-3
     reference = np.stack([r0 * np.cos(T), r0 * np.sin(T), Z * reference_height_mm]) * 1e-3
-    put("control_points", ("component", "row", "column"), points, "m")
-    put("reference_control_points", ("component", "row", "column"), reference, "m")
+    control, node = ("component", "row", "column"), ("component", "node_row", "node_column")
+    return {
+        "control_points": Quantity(points, "m", "control points", control),
+        "reference_control_points": Quantity(reference, "m", "reference", control),
+        "surface": Quantity(knot_points(points), "m", "surface", node),
+        "reference_surface": Quantity(knot_points(reference), "m", "reference surface", node),
+    }
 
 
-def _write_history(file, overlength, reference_height_mm, thickness_um):
+def _history(overlength, reference_height_mm, thickness_um):
     step = np.arange(0, 6001, 20)
     tau = np.clip(step / 2000, 0, 1)
     path = 10 * tau**3 - 15 * tau**4 + 6 * tau**5
@@ -221,8 +286,7 @@ def _write_history(file, overlength, reference_height_mm, thickness_um):
         "kinetic_energy": (1e-2 * energy * np.exp(-np.maximum(step - 1000, 0) / 250), "J"),
         "residual": (np.where(step > 2000, 10 ** (-(step - 2000) / 700.0), np.nan), "1"),
     }
-    file.createDimension("history", step.size)
-    for name, (values, units) in columns.items():
-        variable = file.createVariable(f"history_{name}", "f8", ("history",))
-        variable.units, variable.long_name = units, name.replace("_", " ")
-        variable[:] = values
+    return {
+        f"history_{name}": Quantity(values, units, name.replace("_", " "), ("history",))
+        for name, (values, units) in columns.items()
+    }

@@ -12,11 +12,9 @@ import statsmodels.regression.linear_model
 import xarray
 
 import foilstudy.plot.render
-from foilstudy.present.figures import FigureInputs, draw_figure
+from foilstudy.present.figures import draw_figures
+from foilstudy.present.files import StudyFiles
 
 name, results, *crumples = sys.argv[1:]
-crumples = list(map(Path, crumples))
-# the response of a realisation lies beside its crumple
-responses = [crumple.with_name("response.nc") for crumple in crumples]
-files = FigureInputs(Path(results, "cube.nc"), crumples, responses)
-draw_figure(name, files, Path(results, "figures", name))
+files = StudyFiles(Path(results, "cube.nc"), tuple(map(Path, crumples)))
+draw_figures([name], files, Path(results, "figures"))

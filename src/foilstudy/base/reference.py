@@ -19,13 +19,39 @@ class Estimate(NamedTuple):
 
 
 @dataclass(frozen=True)
+class PowerLaw:
+    """``ln k = alpha + beta ln(overlength/%) + gamma ln(thickness/um)``, `k` in N/m.
+
+    Attributes
+    ----------
+    alpha : float
+        Logarithm of the stiffness (N/m) at 1 % and 1 um.
+    beta, gamma : float
+        Exponents of overlength and thickness; NaN, which counts as zero, where a sweep does not
+        determine one.
+    """
+
+    alpha: float
+    beta: float
+    gamma: float
+
+    def stiffness(self, overlength_percent, thickness_um):
+        """Stiffness in N/m; the arguments broadcast against each other."""
+        return np.exp(
+            self.alpha
+            + np.nan_to_num(self.beta) * np.log(overlength_percent)
+            + np.nan_to_num(self.gamma) * np.log(thickness_um)
+        )
+
+
+@dataclass(frozen=True)
 class PublishedLaw:
-    """Published power law ``ln k = alpha + beta ln(overlength/%) + gamma ln(thickness/um)``.
+    """Published power law of the stiffness.
 
     Attributes
     ----------
     alpha, beta, gamma
-        Least-squares estimates, `k` in N/m.
+        Least-squares estimates, see `PowerLaw`.
     r2
         Coefficient of determination.
     """
@@ -35,13 +61,10 @@ class PublishedLaw:
     gamma: Estimate
     r2: float
 
-    def stiffness(self, overlength_percent, thickness_um):
-        """Stiffness in N/m; the arguments broadcast against each other."""
-        return np.exp(
-            self.alpha.value
-            + self.beta.value * np.log(overlength_percent)
-            + self.gamma.value * np.log(thickness_um)
-        )
+    @property
+    def law(self) -> PowerLaw:
+        """The law with the estimated values."""
+        return PowerLaw(self.alpha.value, self.beta.value, self.gamma.value)
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,18 @@ from pathlib import Path
 import numpy as np
 
 from foilstudy.base.outcome import USABLE
+from foilstudy.base.record import read_record
 from foilstudy.model.patch import knot_points
+
+_TOLD = {
+    "thickness_um": float,
+    "overlength_percent": float,
+    "reference_height_mm": float,
+    "seed": int,
+    "status": str,
+    "message": str,
+}
+"""Attributes of a record that the figures go by."""
 
 
 @dataclass(frozen=True)
@@ -55,45 +66,30 @@ class Shape:
 
 def catalogue(paths: Iterable) -> list[Crumple]:
     """Return the realisations in `paths`, sorted by thickness, overlength and seed."""
-    import netCDF4
-
     found = []
-    for path in paths:
-        with netCDF4.Dataset(path) as file:
-            found.append(
-                Crumple(
-                    path=Path(path),
-                    thickness_um=float(file.thickness_um),
-                    overlength_percent=float(file.overlength_percent),
-                    reference_height_mm=float(file.reference_height_mm),
-                    seed=int(file.seed),
-                    status=str(file.status),
-                    message=str(file.message),
-                )
-            )
+    for path in map(Path, paths):
+        _, attributes = read_record(path)
+        found.append(
+            Crumple(path, **{name: kind(attributes[name]) for name, kind in _TOLD.items()})
+        )
     return sorted(found, key=lambda c: (c.thickness_um, c.overlength_percent, c.seed))
 
 
 def read_shape(crumple: Crumple) -> Shape:
     """Read the crumpled surface of a realisation that has one."""
-    import netCDF4
-
-    with netCDF4.Dataset(crumple.path) as file:
-        points = np.asarray(file["control_points"][:], float)
-        reference = knot_points(np.asarray(file["reference_control_points"][:], float))
-    return Shape(points, float(np.hypot(reference[0], reference[1]).mean()))
+    values, _ = read_record(crumple.path)
+    reference = knot_points(values["reference_control_points"])
+    return Shape(values["control_points"], float(np.hypot(reference[0], reference[1]).mean()))
 
 
 def read_history(crumple: Crumple) -> dict[str, np.ndarray]:
     """Read the history of a realisation; keys without the prefix ``history_``, SI units."""
-    import netCDF4
-
-    with netCDF4.Dataset(crumple.path) as file:
-        return {
-            name.removeprefix("history_"): np.ma.filled(variable[:].astype(float), np.nan)
-            for name, variable in file.variables.items()
-            if name.startswith("history_")
-        }
+    values, _ = read_record(crumple.path)
+    return {
+        name.removeprefix("history_"): column
+        for name, column in values.items()
+        if name.startswith("history_")
+    }
 
 
 def typical_configuration(crumples: list[Crumple]) -> list[Crumple]:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from foilstudy.base.record import read_record
 from foilstudy.plot.crumples import Crumple
 
 
@@ -54,14 +55,11 @@ def recorded_modes(crumples: Iterable[Crumple], response_paths: Iterable) -> dic
 
 def read_modes(path: Path) -> Modes | None:
     """Modes in a response.nc whose shape and frequency are known; None if it has none."""
-    import netCDF4
-
-    with netCDF4.Dataset(path) as file:
-        if "mode_shape" not in file.variables:
-            return None
-        file.set_auto_mask(False)
-        shapes = np.asarray(file["mode_shape"][...], float)
-        frequencies = np.asarray(file["eigenfrequency"][...], float)[: len(shapes)]
+    values, _ = read_record(path)
+    if "mode_shape" not in values:
+        return None
+    shapes = values["mode_shape"].astype(float)
+    frequencies = values["eigenfrequency"][: len(shapes)]
     shapes = shapes[: len(frequencies)]
     known = np.isfinite(frequencies) & np.isfinite(shapes).all(axis=(1, 2, 3))
     return Modes(frequencies[known], shapes[known]) if known.any() else None

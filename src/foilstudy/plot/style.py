@@ -9,6 +9,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLocator
+from scipy.optimize import isotonic_regression
 
 PAGE_WIDTH = 10.0
 """Width of a full-width figure, inches."""
@@ -184,11 +185,4 @@ def label_ends(axes, x: float, labels, gap: float = 0.062, **text) -> None:
 def spread(positions, gap: float) -> np.ndarray:
     """Move sorted positions the least (in the sense of squares) so that they stay `gap` apart."""
     offset = gap * np.arange(len(positions))
-    # Pool-adjacent-violators: positions minus their offsets must not decrease.
-    blocks: list[list[float]] = []
-    for value in np.asarray(positions, float) - offset:
-        blocks.append([value])
-        while len(blocks) > 1 and np.mean(blocks[-2]) > np.mean(blocks[-1]):
-            last = blocks.pop()
-            blocks[-1] += last
-    return np.array([np.mean(block) for block in blocks for _ in block]) + offset
+    return isotonic_regression(np.asarray(positions, float) - offset).x + offset

@@ -18,7 +18,8 @@ from foilstudy.plot.style import (
     thickness_label,
     value_ticks,
 )
-from foilstudy.present.statistics.isolation import isolation_options, isolation_table
+from foilstudy.present.configuration import isolation_options
+from foilstudy.present.statistics.isolation import isolation_table
 from foilstudy.present.statistics.mounts import MOUNTS
 
 _COLOUR_MAP = "cividis"

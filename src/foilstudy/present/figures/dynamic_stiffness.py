@@ -31,10 +31,7 @@ def draw(cube, definition: str):
     definition
         ``transfer``, ``driving`` or ``relative``.
     """
-    magnitude = np.hypot(
-        cube["dynamic_stiffness_re"].sel(definition=definition),
-        cube["dynamic_stiffness_im"].sel(definition=definition),
-    )
+    magnitude = np.abs(cube["dynamic_stiffness"].sel(definition=definition))
     magnitude = magnitude.where(cube["status"].isin(USABLE))
     directions = list(map(str, cube["direction"].values))
     thicknesses = cube["thickness"].to_numpy()

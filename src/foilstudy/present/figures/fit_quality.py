@@ -34,13 +34,13 @@ def draw(cube):
     axes = figure.subplots(2, len(directions), squeeze=False, height_ratios=[1.25, 1], sharey="row")
     for column, direction in zip(axes.T, directions):
         data = samples(cube, "static_stiffness", direction=direction)
-        law = fit_power_law(data)
+        fit = fit_power_law(data).fit
         column[0].set_title(direction)
-        if not np.isfinite(law.alpha):
+        if not np.isfinite(fit.value["constant"]):
             for ax in column:
-                message_panel(ax, law.fit.note)
+                message_panel(ax, fit.note)
             continue
-        _pair(column, data, law, cube["thickness"].to_numpy(), cube["overlength"].to_numpy())
+        _pair(column, data, fit, cube["thickness"].to_numpy(), cube["overlength"].to_numpy())
         decade_ticks(column[0].xaxis)
         decade_ticks(column[0].yaxis)
     axes[0, 0].set_ylabel("stiffness (N/m)")
@@ -51,12 +51,12 @@ def draw(cube):
     return figure
 
 
-def _pair(column, data, law, thicknesses, overlengths) -> None:
+def _pair(column, data, fit, thicknesses, overlengths) -> None:
     top, bottom = column
-    fitted = np.exp(law.fit.fitted)
+    fitted = np.exp(fit.fitted)
     ratio = data.value / fitted
     limits = span(np.concatenate([data.value, fitted]))
-    factor = np.exp(NORMAL_95 * law.fit.residual_std)
+    factor = np.exp(NORMAL_95 * fit.residual_std)
     for ax in column:
         ax.set_yscale("log")
     top.set_xscale("log")

@@ -141,7 +141,7 @@ def _mark_hidden(ax, overlength: float, count: int, series: _Series) -> None:
 
 
 def _experiment(ax, direction: str, thickness: float, overlengths) -> None:
-    law = published().power_laws[direction]["experiment"]
+    law = published().power_laws[direction]["experiment"].law
     fine = np.geomspace(*span(overlengths, 1.15), 60)
     ax.plot(
         fine,

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from importlib import import_module
 from pathlib import Path
 
-from foilstudy.plot.save import save
+from foilstudy.plot.save import PNG_DPI, save
+from foilstudy.present.files import StudyFiles
 
 
 @dataclass(frozen=True)
@@ -21,9 +22,12 @@ class FigureSpec:
     module : str
         Module of this package whose ``draw`` makes the figure.
     needs : tuple of str
-        Inputs of ``draw``: ``cube`` (the open cube), ``crumple_paths``, ``response_paths``.
+        Inputs of ``draw``, which are attributes of `StudyFiles`: ``cube``, ``crumple_paths``,
+        ``response_paths``.
     options : mapping
         Further keyword arguments of ``draw``.
+    png_dpi : int
+        Dots per inch of the PNG.
     """
 
     title: str
@@ -31,11 +35,12 @@ class FigureSpec:
     module: str
     needs: tuple[str, ...]
     options: Mapping[str, str] = field(default_factory=dict)
+    png_dpi: int = PNG_DPI
 
     def draw(self, **inputs):
         """Return the figure; `inputs` are the ones listed in `needs`."""
         module = import_module(f"foilstudy.present.figures.{self.module}")
-        return module.draw(**{name: inputs[name] for name in self.needs}, **self.options)
+        return module.draw(**inputs, **self.options)
 
 
 _STIFFNESS_CAPTION = (
@@ -53,6 +58,7 @@ FIGURES: dict[str, FigureSpec] = {
         "Colour: radial displacement from the cylinder, on the published scale.",
         "morphology",
         ("crumple_paths",),
+        png_dpi=100,  # shaded pictures are large
     ),
     "stiffness_axial": FigureSpec(
         "Axial stiffness against overlength",
@@ -206,29 +212,14 @@ FIGURES: dict[str, FigureSpec] = {
 """Figures of the study by id, in the order in which a report shows them."""
 
 
-@dataclass(frozen=True)
-class FigureInputs:
-    """Files that the figures of one study are drawn from; none is opened without need.
-
-    Attributes
-    ----------
-    cube_path : path of cube.nc
-    crumple_paths, response_paths : paths of the records of the realisations
-    """
-
-    cube_path: Path
-    crumple_paths: Sequence[Path] = ()
-    response_paths: Sequence[Path] = ()
-
-
-def draw_figure(figure_id: str, files: FigureInputs, stem) -> tuple[Path, Path]:
+def draw_figure(figure_id: str, files: StudyFiles, stem) -> tuple[Path, Path]:
     """Draw and save one figure.
 
     Parameters
     ----------
     figure_id
         A key of `FIGURES`.
-    files : FigureInputs
+    files : StudyFiles
     stem : path without suffix
 
     Returns
@@ -243,23 +234,18 @@ def draw_figure(figure_id: str, files: FigureInputs, stem) -> tuple[Path, Path]:
     if figure_id not in FIGURES:
         raise KeyError(f"no figure {figure_id!r}: choose one of {', '.join(FIGURES)}")
     spec = FIGURES[figure_id]
-    inputs = {"crumple_paths": files.crumple_paths, "response_paths": files.response_paths}
-    if "cube" not in spec.needs:
-        return save(spec.draw(**inputs), stem)
-    import xarray as xr
-
-    with xr.open_dataset(files.cube_path) as cube:
-        return save(spec.draw(cube=cube, **inputs), stem)
+    figure = spec.draw(**{name: getattr(files, name) for name in spec.needs})
+    return save(figure, stem, spec.png_dpi)
 
 
-def draw_figures(figure_ids: Iterable[str], files: FigureInputs, out_dir) -> list[Path]:
+def draw_figures(figure_ids: Iterable[str], files: StudyFiles, out_dir) -> list[Path]:
     """Draw and save figures as ``<out_dir>/<id>.png`` and ``.svg``; return the paths.
 
     Parameters
     ----------
     figure_ids
         Keys of `FIGURES`.
-    files : FigureInputs
+    files : StudyFiles
     out_dir : path of the folder
     """
     return [

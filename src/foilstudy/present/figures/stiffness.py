@@ -42,7 +42,7 @@ def draw(cube, direction: str):
     """
     table = stiffness_summary(cube)
     table = table[table["direction"] == direction]
-    law = simulated_law(cube, direction)
+    fitted = simulated_law(cube, direction)
     thicknesses = cube["thickness"].to_numpy()
     overlengths = cube["overlength"].to_numpy()
     columns = min(4, thicknesses.size)
@@ -55,7 +55,7 @@ def draw(cube, direction: str):
         ax.set_yscale("log")
         overlength_axis(ax, overlengths)
         _panel(ax, table[table["thickness_um"] == thickness])
-        _laws(ax, law, direction, fine, thickness)
+        _laws(ax, fitted.law, direction, fine, thickness)
     for ax in axes[thicknesses.size :]:
         ax.set_visible(False)
     decade_ticks(axes[0].yaxis)
@@ -68,7 +68,7 @@ def draw(cube, direction: str):
         loc="outside lower center",
         ncols=3 if columns > 2 else 2,
     )
-    figure.suptitle(_law_text(law), fontsize=10.5)
+    figure.suptitle(_law_text(fitted.fit), fontsize=10.5)
     return figure
 
 
@@ -119,7 +119,7 @@ def _laws(ax, law, direction: str, overlength, thickness: float) -> None:
     fit = law.stiffness(overlength, thickness) if np.isfinite(law.beta) else overlength * np.nan
     ax.plot(overlength, fit, color=_MINE, label="this study: fit")
     for source, style in (("simulation", "--"), ("experiment", "-.")):
-        other = published().power_laws[direction][source]
+        other = published().power_laws[direction][source].law
         ax.plot(
             overlength,
             other.stiffness(overlength, thickness),
@@ -130,21 +130,21 @@ def _laws(ax, law, direction: str, overlength, thickness: float) -> None:
         )
 
 
-def _law_text(law) -> str:
-    if not np.isfinite(law.alpha):
-        return law.fit.note
-    if not np.isfinite(law.beta) or not np.isfinite(law.gamma):
-        return f"sweep too small for the law; usable realisations: {law.fit.n}"
+def _law_text(fit) -> str:
+    if not np.isfinite(fit.value["constant"]):
+        return fit.note
+    if not np.isfinite(list(fit.value.values())).all():
+        return f"sweep too small for the law; usable realisations: {fit.n}"
 
     def term(key):
-        half = law.fit.high[key] - law.fit.value[key]
+        half = fit.high[key] - fit.value[key]
         if not np.isfinite(half):
-            return f"{law.fit.value[key]:.2f}"
-        return f"{law.fit.value[key]:.2f} ± {half:.2f}"
+            return f"{fit.value[key]:.2f}"
+        return f"{fit.value[key]:.2f} ± {half:.2f}"
 
-    r2 = f", $R^2$ = {law.fit.r2:.3f}" if np.isfinite(law.fit.r2) else ""
+    r2 = f", $R^2$ = {fit.r2:.3f}" if np.isfinite(fit.r2) else ""
     return (
         f"stiffness ∝ overlength$^{{\\mathsf{{{term('overlength')}}}}}$ · "
         f"thickness$^{{\\mathsf{{{term('thickness')}}}}}$"
-        f"{r2}, $n$ = {law.fit.n} (± 95 %)"
+        f"{r2}, $n$ = {fit.n} (± 95 %)"
     ).replace("-", "−")

@@ -61,7 +61,7 @@ def draw(cube):
         ax.set_ylim(span(thicknesses, 1.3))
         value_ticks(ax.yaxis, thicknesses)
         _means(ax, overlengths, thicknesses, grid, levels, norm)
-        _fit(ax, simulated_law(cube, direction), levels)
+        _fit(ax, simulated_law(cube, direction).law, levels)
     axes[0].set_ylabel("thickness (µm)")
     bar = figure.colorbar(
         ScalarMappable(norm, _COLOUR_MAP),

@@ -18,7 +18,8 @@ from foilstudy.plot.style import (
     styled,
     thickness_label,
 )
-from foilstudy.present.statistics.isolation import isolation_options, payload_transmissibility
+from foilstudy.present.configuration import isolation_options
+from foilstudy.present.statistics.isolation import payload_transmissibility
 from foilstudy.present.statistics.mounts import MOUNTS
 
 _THICKNESSES_MAX = 4

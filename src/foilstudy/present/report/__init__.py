@@ -1,5 +1,5 @@
 """The study as one self-contained page that answers first, then shows, then proves."""
 
-from foilstudy.present.report.page import ReportInputs, write_report
+from foilstudy.present.report.page import write_report
 
-__all__ = ["ReportInputs", "write_report"]
+__all__ = ["write_report"]

@@ -131,12 +131,7 @@ def dynamic_findings(cube: xr.Dataset) -> list[str]:
         The study's result cube; its ``relative`` dynamic stiffness is used, the published
         definition.
     """
-    if "dynamic_stiffness_re" not in cube:
-        return []
-    relative = np.hypot(
-        cube["dynamic_stiffness_re"].sel(definition="relative"),
-        cube["dynamic_stiffness_im"].sel(definition="relative"),
-    )
+    relative = np.abs(cube["dynamic_stiffness"].sel(definition="relative"))
     frequency = cube["frequency"].values
     sentences = []
     start = Spread.of(np.abs(relative.isel(frequency=0) / cube["static_stiffness"] - 1))

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pandas as pd
 
+from foilstudy.base.reference import PowerLaw
 from foilstudy.present.report.numerals import fixed, number, signed
 from foilstudy.present.statistics.powerlaw import NORMAL_95
 
@@ -60,7 +61,7 @@ class Exponent:
 
 @dataclass(frozen=True)
 class Law:
-    """``k = exp(alpha) (overlength/%)^beta (thickness/um)^gamma`` with `k` in N/m."""
+    """A power law of `PowerLaw`'s form, with what the page says about it."""
 
     source: str
     name: str
@@ -83,13 +84,10 @@ class Law:
         """Stiffness [N/m] of a law without any exponent: the mean of one configuration."""
         return math.exp(self.alpha.value)
 
-    def stiffness(self, overlength_percent: float, thickness_um: float) -> float:
-        """Stiffness [N/m]; an undetermined exponent counts as zero."""
-        beta = self.beta.value if self.beta.known else 0.0
-        gamma = self.gamma.value if self.gamma.known else 0.0
-        return math.exp(
-            self.alpha.value + beta * math.log(overlength_percent) + gamma * math.log(thickness_um)
-        )
+    @property
+    def law(self) -> PowerLaw:
+        """The law with the estimated values."""
+        return PowerLaw(self.alpha.value, self.beta.value, self.gamma.value)
 
 
 @dataclass(frozen=True)
@@ -155,7 +153,7 @@ def _with_differences(ours: Law, other: Law, cells: pd.DataFrame) -> Law:
         if (text := _difference(name, getattr(ours, name), getattr(other, name)))
     ]
     middle = _geometric_mean(cells["overlength_percent"]), _geometric_mean(cells["thickness_um"])
-    ratio = other.stiffness(*middle) / ours.stiffness(*middle)
+    ratio = other.law.stiffness(*middle) / ours.law.stiffness(*middle)
     level = "equally" if fixed(ratio, 1) == "1.0" else f"{number(ratio, 2)} times as"
     words.append(f"{level} stiff mid-sweep")
     return replace(other, differences="; ".join(words + notes))

@@ -3,19 +3,20 @@
 import base64
 import hashlib
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import jinja2
 import pandas as pd
 import xarray as xr
-import yaml
 
 from foilstudy.base.files import written_whole
 from foilstudy.base.reference import published
-from foilstudy.plot.save import PNG_DPI
+from foilstudy.plot.save import inches_wide
+from foilstudy.present.configuration import configuration, isolation_options
 from foilstudy.present.figures import FIGURES
+from foilstudy.present.files import StudyFiles
 from foilstudy.present.report import (
     equilibrium,
     exponents,
@@ -29,7 +30,6 @@ from foilstudy.present.report import (
     viewer,
 )
 from foilstudy.present.report.health import assess
-from foilstudy.present.statistics.isolation import isolation_options
 
 TEMPLATES = Path(__file__).parent / "templates"
 
@@ -47,42 +47,19 @@ SECTIONS = {
 }
 """Where each figure stands; one not named here follows the last of the results."""
 
+_TABLES = {
+    "powerlaw": "power laws, their uncertainty and the published ones",
+    "stiffness_summary": "static stiffness of every configuration",
+    "variability": "coefficients of variation",
+    "eigenfrequency_law": "exponents of the first eigenfrequency",
+    "isolation": "links of every configuration beside a mount",
+}
+"""Tables that the page is made from, and what they hold."""
+
 SVG_BYTES_MAX = 600_000
 """A larger vector drawing is slower to show than its picture in dots."""
 
 CSS_PIXELS_PER_INCH = 96
-
-
-@dataclass(frozen=True)
-class ReportInputs:
-    """Everything that the report is made from.
-
-    Attributes
-    ----------
-    cube_path
-        The study's ``cube.nc``.
-    powerlaw_csv, variability_csv, eigenfrequency_csv, stiffness_summary_csv, isolation_csv
-        The tables of the same cube.
-    figures_dir
-        Folder of ``<figure id>.png`` and ``.svg``; it may be empty.
-    crumple_paths
-        ``crumple.nc`` of the realisations; a handful is chosen for the 3-D view.
-    response_paths
-        ``response.nc`` of the realisations, for their modes; it may be empty.
-    benchmarks_dir
-        Folder of the workflow's benchmark tables; None when there is none.
-    """
-
-    cube_path: Path
-    powerlaw_csv: Path
-    variability_csv: Path
-    eigenfrequency_csv: Path
-    stiffness_summary_csv: Path
-    isolation_csv: Path
-    figures_dir: Path
-    crumple_paths: Sequence[Path]
-    response_paths: Sequence[Path] = ()
-    benchmarks_dir: Path | None = None
 
 
 @dataclass(frozen=True)
@@ -96,13 +73,14 @@ class Figure:
     width: int | None
 
 
-def write_report(inputs: ReportInputs, out_path: Path) -> Path:
+def write_report(files: StudyFiles, out_path: Path) -> Path:
     """Write the self-contained report of a study.
 
     Parameters
     ----------
-    inputs
-        Cube, tables, figures and shapes of one study.
+    files
+        Cube, tables, figures and records of one study. Of the figures those stand in the page that
+        have been drawn; a handful of the shapes is chosen for the 3-D view.
     out_path
         The page to write. It appears complete or not at all.
 
@@ -114,11 +92,12 @@ def write_report(inputs: ReportInputs, out_path: Path) -> Path:
     Raises
     ------
     FileNotFoundError
-        If the cube or a table is missing.
+        If a table is missing.
+    ValueError
+        If the cube is missing or is none.
     """
     out_path = Path(out_path)
-    with xr.open_dataset(inputs.cube_path) as cube:
-        content = _content(inputs, cube, out_path.parent)
+    content = _content(files, out_path.parent)
     page = _environment().get_template("report.html").render(content)
     with written_whole(out_path) as partial:
         partial.write_text(page, encoding="utf-8")
@@ -138,24 +117,17 @@ def _environment() -> jinja2.Environment:
     return environment
 
 
-def _content(inputs: ReportInputs, cube: xr.Dataset, folder: Path) -> dict:
-    powerlaw, summary, variability, eigenfrequency, links = (
-        pd.read_csv(path)
-        for path in (
-            inputs.powerlaw_csv,
-            inputs.stiffness_summary_csv,
-            inputs.variability_csv,
-            inputs.eigenfrequency_csv,
-            inputs.isolation_csv,
-        )
-    )
-    config = yaml.safe_load(cube.attrs.get("config", "")) or {}
-    health = assess(cube, inputs.benchmarks_dir)
+def _content(files: StudyFiles, folder: Path) -> dict:
+    cube = files.cube
+    tables = {name: pd.read_csv(files.table(name)) for name in _TABLES}
+    powerlaw, summary, variability, eigenfrequency, links = tables.values()
+    config = configuration(cube)
+    health = assess(cube, files.benchmarks)
     settling = equilibrium.assess_equilibrium(cube, config)
     mesh_errors = mesh.assess_mesh(cube)
     read_laws = laws.read_laws(powerlaw, summary)
-    chosen = viewer.choose_shapes(inputs.crumple_paths)
-    shapes = viewer.viewer_data(chosen, inputs.response_paths)
+    chosen = viewer.choose_shapes(files.crumple_paths)
+    shapes = viewer.viewer_data(chosen, files.response_paths)
     script = (TEMPLATES / "viewer.js").read_text("utf-8")
     return {
         "title": config.get("report", {}).get("title", "Crumpled foil"),
@@ -187,8 +159,9 @@ def _content(inputs: ReportInputs, cube: xr.Dataset, folder: Path) -> dict:
         "shape_words": findings.shape_findings(cube, published()),
         "health": health,
         "health_words": findings.health_sentence(health),
-        "figures": _figures(inputs.figures_dir),
+        "figures": _figures(files.figures),
         "viewer": shapes,
+        "has_records": bool(files.crumple_paths),
         "gradient": _gradient(),
         "style": (TEMPLATES / "report.css").read_text("utf-8"),
         "script": script,
@@ -196,11 +169,11 @@ def _content(inputs: ReportInputs, cube: xr.Dataset, folder: Path) -> dict:
         "config": cube.attrs.get("config", ""),
         "provenance": _provenance(cube),
         "citation": published().citation,
-        "files": _files(inputs, folder),
+        "files": _files(files, folder),
     }
 
 
-def _scope(cube: xr.Dataset, config: dict) -> list[str]:
+def _scope(cube: xr.Dataset, config: Mapping) -> list[str]:
     """Say in a few phrases what was simulated."""
 
     def span(name: str, noun: str, unit: str) -> str:
@@ -258,10 +231,7 @@ def _picture(folder: Path, stem: str) -> tuple[str, int | None]:
     vector, dots = folder / f"{stem}.svg", folder / f"{stem}.png"
     if vector.exists() and (not dots.exists() or vector.stat().st_size <= SVG_BYTES_MAX):
         return _data_address(vector.read_bytes(), "svg+xml"), None
-    content = dots.read_bytes()
-    # The first chunk of a PNG begins with its width in dots.
-    width = int.from_bytes(content[16:20], "big")
-    return _data_address(content, "png"), round(width * CSS_PIXELS_PER_INCH / PNG_DPI)
+    return _data_address(dots.read_bytes(), "png"), round(inches_wide(dots) * CSS_PIXELS_PER_INCH)
 
 
 def _data_address(content: bytes, kind: str) -> str:
@@ -281,16 +251,12 @@ def _provenance(cube: xr.Dataset) -> list[tuple[str, str]]:
     ]
 
 
-def _files(inputs: ReportInputs, folder: Path) -> list[tuple[str, str, str]]:
+def _files(files: StudyFiles, folder: Path) -> list[tuple[str, str, str]]:
     """Links to the files that the page was made from: text, relative address, content."""
     described = [
-        (inputs.cube_path, "all numbers of all realisations (NetCDF-4)"),
-        (inputs.powerlaw_csv, "power laws, their uncertainty and the published ones"),
-        (inputs.stiffness_summary_csv, "static stiffness of every configuration"),
-        (inputs.variability_csv, "coefficients of variation"),
-        (inputs.eigenfrequency_csv, "exponents of the first eigenfrequency"),
-        (inputs.isolation_csv, "links of every configuration beside a mount"),
-        (inputs.figures_dir, "the figures as PNG and SVG"),
+        (files.cube_path, "all numbers of all realisations (NetCDF-4)"),
+        *((files.table(name), meaning) for name, meaning in _TABLES.items()),
+        (files.figures, "the figures as PNG and SVG"),
     ]
     links = []
     for path, meaning in described:

@@ -271,7 +271,9 @@ def _implied_scatter(cube: xr.Dataset, direction: str) -> float:
 
     With R² = explained / (explained + residual) variance, over the grid of this study.
     """
-    law = published().power_laws[direction]["experiment"]
-    fitted = np.log(law.stiffness(cube["overlength"].values, cube["thickness"].values[:, None]))
+    experiment = published().power_laws[direction]["experiment"]
+    fitted = np.log(
+        experiment.law.stiffness(cube["overlength"].values, cube["thickness"].values[:, None])
+    )
     variance = np.var(fitted)
-    return math.sqrt(variance * (1 - law.r2) / law.r2) if variance > 0 else math.nan
+    return math.sqrt(variance * (1 - experiment.r2) / experiment.r2) if variance > 0 else math.nan

@@ -4,9 +4,9 @@ import base64
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-import netCDF4
 import numpy as np
 
+from foilstudy.base.record import read_record
 from foilstudy.base.reference import published
 from foilstudy.plot.crumples import Crumple, catalogue
 from foilstudy.plot.modes import Modes, recorded_modes
@@ -65,9 +65,8 @@ def pack_shape(shape: Crumple, modes: Modes | None = None) -> dict:
     ValueError
         If the shape holds values that are not finite.
     """
-    with netCDF4.Dataset(shape.path) as data:
-        surface = np.ma.filled(data["surface"][:], np.nan)
-        reference = np.ma.filled(data["reference_surface"][:], np.nan)
+    values, _ = read_record(shape.path)
+    surface, reference = values["surface"], values["reference_surface"]
     if not (np.isfinite(surface).all() and np.isfinite(reference).all()):
         raise ValueError(
             f"{shape.path}: the surface holds values that are not finite; "

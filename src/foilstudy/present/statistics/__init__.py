@@ -3,7 +3,7 @@
 from foilstudy.present.statistics.eigenfrequency import eigenfrequency_table
 from foilstudy.present.statistics.powerlaw import (
     SIMULATED,
-    PowerLaw,
+    FittedLaw,
     fit_power_law,
     powerlaw_table,
     simulated_law,
@@ -24,8 +24,8 @@ from foilstudy.present.statistics.variability import (
 __all__ = [
     "SIMULATED",
     "TABLES",
+    "FittedLaw",
     "LinearFit",
-    "PowerLaw",
     "coefficient_of_variation",
     "coefficient_of_variation_interval",
     "eigenfrequency_table",

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foilstudy.config import Isolation
 from foilstudy.measure.isolation import (
     foil_link,
     in_parallel,
@@ -15,6 +14,7 @@ from foilstudy.measure.isolation import (
     transmissibility,
 )
 from foilstudy.measure.isolation.parallel import FLOOR, PAYLOAD
+from foilstudy.present.configuration import isolation_options
 from foilstudy.present.statistics.cells import good, measured
 from foilstudy.present.statistics.mounts import mounts, static_spring
 
@@ -37,20 +37,6 @@ class Transmissibilities:
     linked: np.ndarray
 
 
-def isolation_options(cube) -> Isolation:
-    """Section ``isolation`` of the study's configuration; its defaults where that has none.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset
-        Its attribute ``config`` holds the configuration as YAML.
-    """
-    import yaml
-
-    config = yaml.safe_load(cube.attrs.get("config", "")) or {}
-    return Isolation.model_validate(config.get("isolation", {}))
-
-
 def link_stiffness(cube, direction: str, definition: str) -> np.ndarray:
     """Dynamic stiffness of one link per realisation.
 
@@ -67,13 +53,8 @@ def link_stiffness(cube, direction: str, definition: str) -> np.ndarray:
     ndarray of complex, shape (thickness, overlength, seed, frequency), N/m
         NaN where the realisation diverged or failed.
     """
-    real, imaginary = (
-        measured(cube, f"dynamic_stiffness_{part}", direction=direction, definition=definition)
-        .transpose(*_ORDER, "frequency")
-        .to_numpy()
-        for part in ("re", "im")
-    )
-    return real + 1j * imaginary
+    stiffness = measured(cube, "dynamic_stiffness", direction=direction, definition=definition)
+    return stiffness.transpose(*_ORDER, "frequency").to_numpy()
 
 
 def payload_transmissibility(cube, direction: str) -> dict[str, Transmissibilities]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from foilstudy.base.outcome import USABLE
 from foilstudy.model.foil import Material
+from foilstudy.present.configuration import configuration, material
 
 BANDWIDTH_OCTAVES = 0.5
 """Width of the band over which a modal density is counted."""
@@ -132,11 +133,11 @@ def plate_modal_density(cube):
     xarray.DataArray or None
         Modes per Hz, dimensions thickness, overlength.
     """
-    config, material = _configured(cube)
-    if material is None:
+    plate, sheet = _plate(cube), configuration(cube).get("sheet", {})
+    if plate is None or "diameter_mm" not in sheet:
         return None
-    area = np.pi * 1e-3 * config["sheet"]["diameter_mm"] * 1e-3 * cube["reference_height"]
-    return Plate(material, 1e-6 * cube["thickness"]).modal_density(area)
+    area = np.pi * 1e-3 * sheet["diameter_mm"] * 1e-3 * cube["reference_height"]
+    return plate.modal_density(area)
 
 
 def resolved_up_to(cube):
@@ -155,25 +156,14 @@ def resolved_up_to(cube):
     xarray.DataArray or None
         Hz, dimension thickness; NaN where no realisation tells its element size.
     """
-    _, material = _configured(cube)
-    if material is None or "element_size" not in cube:
+    plate = _plate(cube)
+    if plate is None or "element_size" not in cube:
         return None
     size = 1e-3 * cube["element_size"].max(["overlength", "seed"])
-    return Plate(material, 1e-6 * cube["thickness"]).frequency_of_wave(ELEMENTS_PER_WAVE * size)
+    return plate.frequency_of_wave(ELEMENTS_PER_WAVE * size)
 
 
-def _configured(cube) -> tuple[dict, Material | None]:
-    """Configuration of the study, and its material where it is told in full."""
-    import yaml
-
-    config = yaml.safe_load(cube.attrs.get("config", "")) or {}
-    try:
-        section, _ = config["material"], config["sheet"]["diameter_mm"]
-        return config, Material(
-            youngs_modulus=1e6 * section["youngs_modulus_mpa"],
-            poisson_ratio=section["poisson_ratio"],
-            density=section["density_kg_m3"],
-            yield_stress=1e6 * section["yield_stress_mpa"],
-        )
-    except KeyError:
-        return config, None
+def _plate(cube) -> Plate | None:
+    """A flat plate of the study's foil, of every thickness."""
+    known = material(cube)
+    return None if known is None else Plate(known, 1e-6 * cube["thickness"])

@@ -158,8 +158,6 @@ def relative_magnitude(cube, thickness: float, direction: str) -> np.ndarray:
     """
     at = {"thickness": thickness}
     part = at | {"direction": direction, "definition": "relative"}
-    magnitude = np.hypot(
-        cube["dynamic_stiffness_re"].sel(part), cube["dynamic_stiffness_im"].sel(part)
-    )
+    magnitude = np.abs(cube["dynamic_stiffness"].sel(part))
     magnitude = magnitude.where(cube["status"].sel(at).isin(USABLE))
     return magnitude.transpose("overlength", "seed", "frequency").to_numpy()

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foilstudy.base.reference import PublishedLaw, published
+from foilstudy.base.reference import PowerLaw, PublishedLaw, published
 from foilstudy.present.statistics.cells import Samples, measured, samples
 from foilstudy.present.statistics.regression import LinearFit, fit_linear
 
@@ -23,8 +23,8 @@ NORMAL_95 = 1.959964
 
 
 @dataclass(frozen=True)
-class PowerLaw:
-    """``ln k = alpha + beta ln(overlength/%) + gamma ln(thickness/um)`` with `k` in N/m.
+class FittedLaw:
+    """A power law fitted to realisations.
 
     Attributes
     ----------
@@ -38,30 +38,13 @@ class PowerLaw:
     configuration: np.ndarray
 
     @property
-    def alpha(self) -> float:
-        """Logarithm of the stiffness (N/m) at 1 % and 1 um."""
-        return self.fit.value["constant"]
-
-    @property
-    def beta(self) -> float:
-        """Exponent of the overlength."""
-        return self.fit.value["overlength"]
-
-    @property
-    def gamma(self) -> float:
-        """Exponent of the thickness."""
-        return self.fit.value["thickness"]
-
-    def stiffness(self, overlength_percent, thickness_um):
-        """Stiffness in N/m; the arguments broadcast. An unidentified exponent counts as zero."""
-        return np.exp(
-            self.alpha
-            + np.nan_to_num(self.beta) * np.log(overlength_percent)
-            + np.nan_to_num(self.gamma) * np.log(thickness_um)
-        )
+    def law(self) -> PowerLaw:
+        """The law with the fitted values; NaN where the realisations do not determine one."""
+        value = self.fit.value
+        return PowerLaw(value["constant"], value["overlength"], value["thickness"])
 
 
-def fit_power_law(data: Samples) -> PowerLaw:
+def fit_power_law(data: Samples) -> FittedLaw:
     """Fit the power law to realisations by ordinary least squares on the logarithms.
 
     Parameters
@@ -76,10 +59,10 @@ def fit_power_law(data: Samples) -> PowerLaw:
             "thickness": np.log(data.thickness_um),
         },
     )
-    return PowerLaw(fit, data.configuration)
+    return FittedLaw(fit, data.configuration)
 
 
-def simulated_law(cube, direction: str, source: str = "simulation") -> PowerLaw:
+def simulated_law(cube, direction: str, source: str = "simulation") -> FittedLaw:
     """Fit the power law to all usable realisations of the cube.
 
     Parameters
@@ -141,7 +124,7 @@ def _left_out(values) -> str:
     return f"{left_out} of {n} values are not positive and do not enter" if left_out else ""
 
 
-def _simulated_row(law: PowerLaw) -> dict:
+def _simulated_row(law: FittedLaw) -> dict:
     fit = law.fit
     clustered = fit.clustered_std_error(law.configuration)
     row = {}

@@ -104,11 +104,9 @@ class LinearFit:
         """p-value of the Breusch-Pagan test (Koenker's form) of constant residual variance."""
         if not self._dof or not self._names:
             return np.nan
-        from scipy.stats import chi2
-        from statsmodels.regression.linear_model import OLS
+        from statsmodels.stats.diagnostic import het_breuschpagan
 
-        auxiliary = OLS(self.residuals**2, self._result.model.exog).fit()
-        return float(chi2.sf(self.n * auxiliary.rsquared, len(self._names)))
+        return float(het_breuschpagan(self.residuals, self._result.model.exog)[1])
 
     def lack_of_fit_p(self, cluster: np.ndarray) -> float:
         """p-value of the F test that the model holds for the mean of every cluster.

@@ -47,8 +47,8 @@ def stiffness_summary(cube):
             values = _finite(static[i, j])
             mean = _mean(values)
             std = values.std(ddof=1) if values.size > 1 else np.nan
-            simulation = laws["simulation"].stiffness(overlength, thickness)
-            experiment = laws["experiment"].stiffness(overlength, thickness)
+            simulation = laws["simulation"].law.stiffness(overlength, thickness)
+            experiment = laws["experiment"].law.stiffness(overlength, thickness)
             rows.append(
                 {
                     "thickness_um": thickness,

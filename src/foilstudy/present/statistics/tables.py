@@ -22,12 +22,12 @@ TABLES = {
 """File stem of each table and the function of the cube that makes it."""
 
 
-def write_tables(cube_path, out_dir) -> list[Path]:
+def write_tables(cube, out_dir) -> list[Path]:
     """Write every table of the study as ``<name>.csv``.
 
     Parameters
     ----------
-    cube_path : path of the study's cube.nc
+    cube : xarray.Dataset
     out_dir : folder for the tables, made if missing
 
     Returns
@@ -35,14 +35,10 @@ def write_tables(cube_path, out_dir) -> list[Path]:
     list of Path
         The files written, in the order of `TABLES`.
     """
-    import xarray as xr
-
-    out_dir = Path(out_dir)
     paths = []
-    with xr.open_dataset(cube_path) as cube:
-        for name, table in TABLES.items():
-            path = out_dir / f"{name}.csv"
-            with written_whole(path) as partial:
-                table(cube).to_csv(partial, index=False, float_format="%.6g", lineterminator="\n")
-            paths.append(path)
+    for name, table in TABLES.items():
+        path = Path(out_dir) / f"{name}.csv"
+        with written_whole(path) as partial:
+            table(cube).to_csv(partial, index=False, float_format="%.6g", lineterminator="\n")
+        paths.append(path)
     return paths

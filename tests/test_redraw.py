@@ -1,0 +1,95 @@
+"""A study is drawn anew from its cube: everything that can be, and the rest is said."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import matplotlib.image
+import numpy as np
+import pandas as pd
+import pytest
+from synthetic import FAILED, make_cube, ten_percent, write_cube, write_records
+
+from foilstudy import open_cube
+from foilstudy.present.figures import FIGURES
+from foilstudy.present.files import StudyFiles
+from foilstudy.present.redraw import redraw
+from foilstudy.present.statistics import TABLES
+
+THESIS = Path(__file__).parents[1] / "results" / "thesis"
+OF_RECORDS = [name for name, figure in FIGURES.items() if figure.needs != ("cube",)]
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """A study of which the cube alone is there; one realisation failed."""
+    cube = make_cube(
+        (50.0, 500.0), (135.0, 170.0), seeds=2, cv=ten_percent, verdicts={(0, 0, 1): FAILED}
+    )
+    write_cube(cube, tmp_path / "cube.nc")
+    return tmp_path
+
+
+def figures_in(page):
+    return {name for name in FIGURES if f'<figure id="figure-{name}"' in page}
+
+
+def test_cube_with_its_records_gives_everything(folder):
+    write_records(open_cube(folder / "cube.nc"), folder)
+    redrawn = redraw(folder)
+    assert redrawn.kept == redrawn.left_out == []
+    assert {path.name for path in redrawn.written} == {
+        *(f"{name}.csv" for name in TABLES),
+        *(f"{name}.{kind}" for name in FIGURES for kind in ("png", "svg")),
+        "report.html",
+    }
+    page = (folder / "report.html").read_text("utf-8")
+    assert figures_in(page) == set(FIGURES)
+    assert 'id="viewer"' in page and "60 Hz" not in page.split("<script")[0]
+    law = pd.read_csv(folder / "powerlaw.csv")
+    assert f"{law['gamma'][0]:.2f}" in page
+
+
+def test_cube_alone_keeps_the_pictures_that_it_cannot_draw(folder):
+    picture = folder / "figures" / "morphology.png"
+    picture.parent.mkdir()
+    matplotlib.image.imsave(picture, np.eye(9))
+    before = picture.read_bytes()
+    redrawn = redraw(folder / "cube.nc")
+    assert redrawn.kept == ["morphology"]
+    assert set(redrawn.left_out) == set(OF_RECORDS) - {"morphology"}
+    assert picture.read_bytes() == before and picture not in redrawn.written
+    page = (folder / "report.html").read_text("utf-8")
+    assert figures_in(page) == set(FIGURES) - set(redrawn.left_out)
+    assert "records of the realisations are not in the folder" in page
+    assert 'id="viewer"' not in page
+
+
+def test_records_of_a_part_do_not_pass_for_the_study(folder):
+    crumples = write_records(open_cube(folder / "cube.nc"), folder)
+    assert StudyFiles.found(folder / "cube.nc").crumple_paths == tuple(crumples)
+    crumples[0].with_name("response.nc").unlink()
+    assert StudyFiles.found(folder / "cube.nc").crumple_paths == ()
+
+
+def test_folder_without_a_cube_is_refused(tmp_path):
+    with pytest.raises(ValueError, match="cube.nc does not exist"):
+        redraw(tmp_path)
+
+
+@pytest.mark.slow
+def test_published_study_is_drawn_from_its_cube_as_it_is_tracked(tmp_path):
+    study = tmp_path / "thesis"
+    shutil.copytree(THESIS, study)
+    for table in TABLES:
+        (study / f"{table}.csv").unlink()
+    redrawn = redraw(study)
+    assert "morphology" in redrawn.kept
+    for table in TABLES:
+        pd.testing.assert_frame_equal(
+            pd.read_csv(study / f"{table}.csv"), pd.read_csv(THESIS / f"{table}.csv"), rtol=1e-5
+        )
+    page = (study / "report.html").read_text("utf-8")
+    assert "120 of 120 realisations converged" in page
+    assert "data:image/png" in page.split('id="figure-morphology"')[1].split("</figure>")[0]
