@@ -28,12 +28,12 @@ import pandas as pd
 import yaml
 from scipy.optimize import least_squares
 
+from foilstudy.base.cube import open_cube
 from foilstudy.base.record import read_record
 from foilstudy.config import Cell, StudyConfig, load_config
-from foilstudy.config.scene import patch_of
-from foilstudy.study.sweep.cube import open_cube
+from foilstudy.config.foils import patch_of
 from foilstudy.study.sweep.expected import MEASURED, CostModel, expected
-from foilstudy.study.sweep.respond import respond
+from foilstudy.study.sweep.respond import respond_job
 
 ROOT = Path(__file__).parents[1]
 PHYSICS = ["seconds_crumple", "seconds_static", "seconds_dynamic"]
@@ -203,7 +203,7 @@ def _coordinates_and_memory(case: tuple[Finished, Cell, float]) -> tuple[float, 
     task = task.model_copy(update={"refinements": 0, "dynamics": dynamics})
     place = study.folder / "realisations" / cell.thickness_id / cell.overlength_id / "0"
     with tempfile.TemporaryDirectory() as folder:
-        respond(task, place / "crumple.nc", Path(folder) / "response.nc")
+        respond_job(task, place / "crumple.nc", Path(folder) / "response.nc")
         values, _ = read_record(Path(folder) / "response.nc")
     patch = patch_of(study.config.crumple_task(cell))
     elements = patch.elements_around * patch.elements_along

@@ -28,19 +28,19 @@ import numpy as np  # noqa: E402
 from foilstudy.base.provenance import machine  # noqa: E402
 from foilstudy.base.record import read_record  # noqa: E402
 from foilstudy.config import load_config  # noqa: E402
-from foilstudy.config.scene import foil_of, imperfection_of, patch_of  # noqa: E402
-from foilstudy.model.imperfection import imperfect_cylinder  # noqa: E402
-from foilstudy.model.patch import cylinder_control_points  # noqa: E402
-from foilstudy.model.shell.shell import Shell  # noqa: E402
-from foilstudy.pipeline.scheme import crumpling_scheme  # noqa: E402
-from foilstudy.solve.relaxation import Ramp, StoppingRule, relax  # noqa: E402
-from foilstudy.solve.relaxation.spectral_mass import SpectralMass  # noqa: E402
-from foilstudy.study.sweep.crumple import crumple  # noqa: E402
-from foilstudy.study.sweep.respond import respond  # noqa: E402
+from foilstudy.model.foil import Foil  # noqa: E402
+from foilstudy.model.materials import material  # noqa: E402
+from foilstudy.pipeline.crumple import uncrumpled  # noqa: E402
+from foilstudy.solve.problem import Problem  # noqa: E402
+from foilstudy.solve.relaxation import Ramp, Scheme, StoppingRule, relax  # noqa: E402
+from foilstudy.solve.relaxation.mass.spectral import SpectralMassScaling  # noqa: E402
+from foilstudy.study.sweep.crumple import crumple_job  # noqa: E402
+from foilstudy.study.sweep.respond import respond_job  # noqa: E402
 from foilstudy.study.sweep.warmup import compile_kernels  # noqa: E402
 
 ROOT = Path(__file__).parents[1]
 REPEATS = 7
+FOIL = Foil(0.2, 0.17, 0.13, 500e-6, material("FEP"))
 
 
 def task_study(height_mm: float, **relaxation):
@@ -71,17 +71,14 @@ def median_seconds(call: Callable[[], object], inner: int = 1) -> float:
 
 def kernel_rows() -> list[tuple[str, str, str]]:
     """Force evaluation and mass solve per element."""
-    study = task_study(170)
-    task = study.crumple_task(study.cells()[0])
-    foil, patch = foil_of(task), patch_of(task)
-    reference = cylinder_control_points(patch, foil.diameter)
-    sheet = Shell.elastic(patch, reference, foil.material, foil.thickness)
-    points = reference + 1e-3 * np.random.default_rng(0).standard_normal(reference.shape)
+    start = uncrumpled(FOIL)
+    shell, patch = start.stressed, start.patch
+    points = start.reference + 1e-3 * np.random.default_rng(0).standard_normal(patch.shape)
     force = np.empty_like(points)
-    mass = SpectralMass(sheet)
+    mass = SpectralMassScaling().start(shell.section)
     momentum = np.ascontiguousarray(force[:, 2:-2])
     elements = patch.elements_around * patch.elements_along
-    per_force = median_seconds(lambda: sheet.force(points, force), 200) / elements
+    per_force = median_seconds(lambda: shell.force(points, force), 200) / elements
     per_solve = median_seconds(lambda: mass.velocity(momentum), 200) / elements
     return [
         ("force evaluation, per element", f"{1e9 * per_force:.0f} ns", "under 60 ns"),
@@ -91,15 +88,9 @@ def kernel_rows() -> list[tuple[str, str, str]]:
 
 def crumple_rows(folder: Path) -> list[tuple[str, str, str]]:
     """One crumple of exactly 4000 steps, then whole realisations."""
-    study = task_study(170)
-    task = study.crumple_task(study.cells()[0])
-    foil, patch = foil_of(task), patch_of(task)
-    perfect = cylinder_control_points(patch, foil.diameter)
-    reference = imperfect_cylinder(patch, perfect, foil, imperfection_of(task))
-    sheet = Shell.elastic(patch, reference, foil.material, foil.thickness)
-    ramp = Ramp(foil.reference_height - foil.gap_height, 2000)
-    rule = StoppingRule(0.0, np.inf, 2000)
-    seconds = median_seconds(lambda: relax(sheet, crumpling_scheme(sheet), ramp, rule))
+    problem, scheme = Problem(uncrumpled(FOIL).stressed), Scheme()
+    ramp, rule = Ramp(FOIL.shortening, 2000), StoppingRule(0.0, 2000)
+    seconds = median_seconds(lambda: relax(problem, scheme.start(problem), ramp, rule))
     rows = [
         ("crumple, 0.17 m, 5 mm, 4000 steps", f"{seconds:.2f} s", "under 3 s"),
     ]
@@ -107,8 +98,8 @@ def crumple_rows(folder: Path) -> list[tuple[str, str, str]]:
         study = task_study(height)
         (cell,) = study.cells()
         paths = folder / f"{height}.nc", folder / f"{height}-response.nc"
-        crumple(study.crumple_task(cell), paths[0])
-        respond(study.response_task(cell), *paths)
+        crumple_job(study.crumple_task(cell), paths[0])
+        respond_job(study.response_task(cell), *paths)
         crumpled, responded = read_record(paths[0])[0], read_record(paths[1])[0]
         rows.append(
             (

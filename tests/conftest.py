@@ -16,14 +16,19 @@ import pytest  # noqa: E402
 
 from foilstudy.measure.stiffness import InterfaceSystem, Rings, condense  # noqa: E402
 from foilstudy.model.foil import Foil, Imperfection, Material  # noqa: E402
-from foilstudy.model.imperfection import imperfect_cylinder  # noqa: E402
+from foilstudy.model.imperfections.cylinder import imperfect_cylinder  # noqa: E402
 from foilstudy.model.patch import Patch, cylinder_control_points  # noqa: E402
 from foilstudy.model.shell.shell import Shell  # noqa: E402
 from foilstudy.model.shell.tangent import mass_matrix  # noqa: E402
-from foilstudy.pipeline.scheme import RAMP_DAMPING, RELAXATION_DAMPING  # noqa: E402
-from foilstudy.solve.relaxation import Ramp, RelaxationResult, Scheme, StoppingRule, relax  # noqa: E402
-from foilstudy.solve.relaxation.damping import AdaptiveViscousDamping  # noqa: E402
-from foilstudy.solve.relaxation.spectral_mass import SpectralMass  # noqa: E402
+from foilstudy.solve.problem import Problem  # noqa: E402
+from foilstudy.solve.relaxation import (  # noqa: E402
+    Ramp,
+    RelaxationResult,
+    Scheme,
+    StoppingRule,
+    relax,
+)
+from foilstudy.solve.relaxation.mass.spectral import SpectralMassScaling  # noqa: E402
 
 DIAMETER, REFERENCE_HEIGHT, GAP_HEIGHT = 0.2, 0.17, 0.13
 THICKNESS = 500e-6
@@ -49,21 +54,17 @@ def imperfect_sheet(element_size, *, material=FEP, thickness=THICKNESS, seed=0):
     """Cylinder with a Gaussian imperfection of 10 um."""
     foil = Foil(DIAMETER, REFERENCE_HEIGHT, GAP_HEIGHT, thickness, material)
     patch = Patch.for_cylinder(DIAMETER, REFERENCE_HEIGHT, element_size)
-    imperfection = Imperfection("gaussian", 10e-6, 0.0, (seed, 500_000, 170_000))
-    perfect = cylinder_control_points(patch, DIAMETER)
-    points = imperfect_cylinder(patch, perfect, foil, imperfection)
+    imperfection = Imperfection(seed=seed)
+    points = imperfect_cylinder(patch, foil, imperfection)
     return Shell.elastic(patch, points, material, thickness)
 
 
 def relaxed(sheet, shortening, *, ramp_steps, steps_max, tolerance=1e-8, safety=1.5):
     """Relaxation with the damping of a study."""
-    scheme = Scheme(
-        SpectralMass(sheet, safety),
-        AdaptiveViscousDamping(RAMP_DAMPING),
-        AdaptiveViscousDamping(RELAXATION_DAMPING),
-    )
-    rule = StoppingRule(tolerance, tolerance, steps_max)
-    return relax(sheet, scheme, Ramp(shortening, ramp_steps), rule)
+    problem = Problem(sheet)
+    motion = Scheme(SpectralMassScaling(safety)).start(problem)
+    rule = StoppingRule(tolerance, steps_max)
+    return relax(problem, motion, Ramp(shortening, ramp_steps), rule)
 
 
 def rotation(axis, angle):

@@ -93,16 +93,16 @@ def write(name: str, content: dict) -> None:
 
 def run(name: str, folder: Path) -> None:
     """Compute every record of a frozen cell."""
-    from foilstudy.study.sweep.crumple import crumple
+    from foilstudy.study.sweep.crumple import crumple_job
     from foilstudy.study.sweep.cylinder import cylinder_bounds
-    from foilstudy.study.sweep.relax_refined import relax_refined
-    from foilstudy.study.sweep.respond import respond
+    from foilstudy.study.sweep.relax_refined import refine_job
+    from foilstudy.study.sweep.respond import respond_job
 
     study = study_of(name)
     (cell,) = study.cells()
-    crumple(study.crumple_task(cell), folder / "crumple.nc")
-    respond(study.response_task(cell), folder / "crumple.nc", folder / "response.nc")
-    relax_refined(study.refine_task(cell), folder / "crumple.nc", folder / "refined.nc")
+    crumple_job(study.crumple_task(cell), folder / "crumple.nc")
+    respond_job(study.response_task(cell), folder / "crumple.nc", folder / "response.nc")
+    refine_job(study.refine_task(cell), folder / "crumple.nc", folder / "refined.nc")
     cylinder_bounds(study, folder / "cylinder.nc")
 
 

@@ -9,13 +9,14 @@ import netCDF4
 import numpy as np
 import pytest
 import yaml
+from synthetic import make_cube, write_cube
 from test_workflow import TINY, changed, plan
 
+from foilstudy.base.cube import open_cube
 from foilstudy.command import main
 from foilstudy.config import load_config
-from foilstudy.export import FORMATS
-from foilstudy.study.sweep.crumple import crumple
-from foilstudy.study.sweep.cube import open_cube
+from foilstudy.export.formats import FORMATS
+from foilstudy.study.sweep.crumple import crumple_job
 from foilstudy.study.sweep.expected import MEMORY_SPREAD, SPREAD, expected
 
 ROOT = Path(__file__).parents[1]
@@ -58,6 +59,7 @@ def test_help_lists_every_command_with_its_purpose(capsys):
         "check": "Say what a configuration means",
         "run": "Run a study, or go on",
         "export": "Write one realisation of a finished study",
+        "report": "Draw tables, figures and page",
     }.items():
         assert f"{name} {purpose}" in text
 
@@ -131,7 +133,7 @@ def test_expected_elements_are_those_of_a_crumple(tmp_path):
     task = task.model_copy(
         update={"relaxation": task.relaxation.model_copy(update={"relaxation_steps_max": 0})}
     )
-    crumple(task, tmp_path / "crumple.nc")
+    crumple_job(task, tmp_path / "crumple.nc")
     with netCDF4.Dataset(tmp_path / "crumple.nc") as file:
         rows, columns = (file.dimensions[name].size for name in ("node_row", "node_column"))
     asked = next(c for c in expected(study).configurations if c.reference_height_mm == 150)
@@ -235,3 +237,19 @@ def test_run_needs_a_snakefile(tmp_path, monkeypatch):
     module = sys.modules["foilstudy.command.run"]
     monkeypatch.setattr(module, "__file__", str(tmp_path / "src/foilstudy/command/run.py"))
     assert "no Snakefile here" in refusal("run", ROOT / "config/tiny.yaml")
+
+
+# --- report --------------------------------------------------------------------------------------
+
+
+def test_report_draws_an_existing_cube_again(tmp_path, capsys):
+    write_cube(make_cube(seeds=2), tmp_path / "cube.nc")
+    text = spoken(capsys, "report", tmp_path)
+    written = [Path(line.removeprefix("wrote ")) for line in text.splitlines() if "wrote" in line]
+    assert {"powerlaw.csv", "report.html"} <= {path.name for path in written}
+    assert all(path.stat().st_size for path in written)
+    assert "left out, as the records of the realisations are not there: " in text
+
+
+def test_report_without_a_cube_is_one_sentence(tmp_path):
+    assert str(tmp_path / "cube.nc") in refusal("report", tmp_path)

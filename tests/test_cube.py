@@ -10,10 +10,10 @@ import yaml
 
 from foilstudy import load_config, open_cube
 from foilstudy.base.record import read_record, write_record
-from foilstudy.study.sweep.crumple import crumple
+from foilstudy.study.sweep.crumple import crumple_job
 from foilstudy.study.sweep.cube import gather
 from foilstudy.study.sweep.cylinder import cylinder_bounds
-from foilstudy.study.sweep.respond import respond
+from foilstudy.study.sweep.respond import respond_job
 
 CONFIG = load_config(
     {
@@ -52,13 +52,13 @@ def results(tmp_path_factory):
             absurd = task.imperfection.model_copy(update={"amplitude_um": 1e6})
             relaxation = task.relaxation.model_copy(update={"relaxation_steps_max": 20})
             task = task.model_copy(update={"imperfection": absurd, "relaxation": relaxation})
-        crumple(task, folder / "crumple.nc")
+        crumple_job(task, folder / "crumple.nc")
         with pytest.MonkeyPatch.context() as patch:
             if index == CRASHED:
                 patch.setattr(
                     sys.modules["foilstudy.study.sweep.respond"], "fixed_stiffness", explode
                 )
-            respond(CONFIG.response_task(cell), folder / "crumple.nc", folder / "response.nc")
+            respond_job(CONFIG.response_task(cell), folder / "crumple.nc", folder / "response.nc")
     cylinder_bounds(CONFIG, results / "cylinder.nc")
     return results
 

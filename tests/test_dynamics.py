@@ -10,10 +10,13 @@ from conftest import DIAMETER, FEP, GAP_HEIGHT, REFERENCE_HEIGHT, THICKNESS, cyl
 from scipy.sparse.linalg import eigsh
 
 from foilstudy.config import Dynamics
+from foilstudy.config.scene import dynamics_of
 from foilstudy.linalg import factorise
+from foilstudy.measure.choices import MODAL_REDUCTIONS
 from foilstudy.measure.dynamics import (
     DEFINITIONS,
     CraigBampton,
+    DynamicsOptions,
     Guyan,
     HintzHerting,
     ModalDamping,
@@ -39,9 +42,9 @@ from foilstudy.measure.stiffness import InterfaceSystem, fixed_stiffness
 from foilstudy.measure.stiffness.rings import interface_rigid_modes
 from foilstudy.model.foil import Foil
 from foilstudy.model.shell.elements.corner import Corner
-from foilstudy.pipeline.crumpled import Crumple
+from foilstudy.pipeline.shape import Shape
 from foilstudy.pipeline.structures import prestressed_structure, stress_free_structure
-from foilstudy.pipeline.vibration import dynamic_quantities
+from foilstudy.pipeline.vibration import vibration_of
 
 CUTOFF_HZ, BAND_HZ = 1000.0, 500.0
 FIVE_PERCENT = ModalDamping(0.05)
@@ -61,7 +64,7 @@ REDUCTIONS = {
 def crumple(coarse_crumple):
     foil = Foil(0.2, 0.17, 0.13, 500e-6, coarse_crumple.sheet.material)
     sheet = coarse_crumple.sheet
-    return Crumple(foil, sheet.patch, coarse_crumple.points, sheet.reference, Corner())
+    return Shape(foil, sheet.patch, coarse_crumple.points, sheet.reference, Corner())
 
 
 @pytest.fixture(scope="module")
@@ -200,7 +203,7 @@ def perfect_cylinder(element_size):
     sheet = cylinder(element_size, material=material)
     foil = Foil(DIAMETER, REFERENCE_HEIGHT, GAP_HEIGHT, THICKNESS, material)
     return stress_free_structure(
-        Crumple(foil, sheet.patch, sheet.reference, sheet.reference, Corner())
+        Shape(foil, sheet.patch, sheet.reference, sheet.reference, Corner())
     )
 
 
@@ -220,29 +223,24 @@ def test_axial_motion_of_a_cylinder_is_that_of_a_bar():
 def test_all_modes_of_a_symmetric_sheet_are_counted():
     """The rings of a perfect cylinder do not move waves of two or more lobes."""
     structure = perfect_cylinder(15e-3)
-    options = Dynamics(shown_max_hz=400.0, mode_shapes=3, eigenfrequencies=8)
+    options = DynamicsOptions(highest_hz=400.0, mode_shapes=3, eigenfrequencies=8)
     k, m = structure.stiffness.interior, structure.mass.interior
     matrix = (k - (2 * np.pi * 400.0) ** 2 * m).tocsr()
-    values = dynamic_quantities(options, structure, cylinder(15e-3).patch)
-    assert values["mode_count"].values[-1] == factorise(matrix).negative_eigenvalues
+    vibration = vibration_of(structure, options)
+    assert vibration.mode_count[-1] == factorise(matrix).negative_eigenvalues
     exact = np.sort(eigsh(k, 8, m, sigma=0.0, return_eigenvectors=False))
-    np.testing.assert_allclose(
-        values["eigenfrequency"].values, np.sqrt(exact) / (2 * np.pi), rtol=1e-6
-    )
+    np.testing.assert_allclose(vibration.eigenfrequencies, np.sqrt(exact) / (2 * np.pi), rtol=1e-6)
 
 
 @pytest.mark.parametrize("name", REDUCTIONS)
-def test_a_study_can_use_every_reduction(name, structure, crumple):
-    cutoff = {"cutoff_hz": 700.0} if name in ("hintz_herting", "craig_bampton") else {}
-    options = Dynamics(reduction=name, shown_max_hz=BAND_HZ, frequencies=40, **cutoff)
-    values = {
-        key: quantity.values
-        for key, quantity in dynamic_quantities(options, structure, crumple.patch).items()
-    }
-    valid = values["frequency"] <= values["valid_to_frequency"]
-    known = np.isfinite(values["dynamic_stiffness_re"]).all(axis=(0, 1))
+def test_a_study_can_use_every_reduction(name, structure):
+    cutoff = {"cutoff_hz": 700.0} if name in MODAL_REDUCTIONS else {}
+    section = Dynamics(reduction=name, shown_max_hz=BAND_HZ, frequencies=40, **cutoff)
+    vibration = vibration_of(structure, dynamics_of(section))
+    valid = vibration.frequencies <= vibration.model.valid_to_hz
+    known = np.isfinite(vibration.dynamic_stiffness).all(axis=(0, 1))
     assert np.array_equal(known, valid)
-    assert valid.all() == (values["reduction_error"] <= options.tolerance)
+    assert valid.all() == (vibration.model.error_estimate <= section.tolerance)
     assert valid.all() == (name == "rational_krylov")
 
 
@@ -498,7 +496,7 @@ def test_prestressed_structure_moves_freely_but_does_not_turn_freely(prestressed
 
 def test_turning_a_prestressed_structure_costs_no_energy(crumple, prestressed):
     """Energy to second order about both rings turned together, force work taken off."""
-    sheet = crumple.sheet(crumple.reference)
+    sheet = crumple.stressed
     base = crumple.points - np.array([0, 0, crumple.points[2, :2].mean()])[:, None, None]
     force = np.empty_like(base)
     sheet.force(base, force)

@@ -6,7 +6,7 @@ import pytest
 from foilstudy.base.costs import Cost
 from foilstudy.model.foil import Foil
 from foilstudy.model.shell.elements.corner import Corner
-from foilstudy.pipeline.crumpled import Crumple
+from foilstudy.pipeline.shape import Shape
 from foilstudy.plot.save import save
 from foilstudy.study.dynamics import measure, plan, records, tables
 from foilstudy.study.kernel import Record, case_name
@@ -19,7 +19,7 @@ def study(coarse_crumple, tmp_path_factory):
     sheet = coarse_crumple.sheet
     foil = Foil(0.2, 0.17, 0.13, 500e-6, sheet.material)
     points = coarse_crumple.points
-    crumple = Crumple(foil, sheet.patch, points, sheet.reference, Corner())
+    crumple = Shape(foil, sheet.patch, points, sheet.reference, Corner())
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(measure, "crumple_of", lambda *_: crumple)
         patch.setattr(measure, "CUTOFFS_HZ", dict.fromkeys((0, 1, 2), (1000.0,)))

@@ -10,14 +10,16 @@ from foilstudy.base.costs import Cost
 from foilstudy.base.tables import csv_text
 from foilstudy.model.patch import Patch, cylinder_control_points
 from foilstudy.model.shell.elements.corner import Corner
+from foilstudy.pipeline.shape import Shape
+from foilstudy.pipeline.static import stress_free_stiffness
 from foilstudy.study.elements import STUDY, plan, summary
 from foilstudy.study.elements.bending import ring_error
 from foilstudy.study.elements.chart import draw
 from foilstudy.study.elements.crumpling import Crumples
 from foilstudy.study.elements.errors import VariantErrors
-from foilstudy.study.elements.frozen import FrozenShape, frozen_errors, stiffness_of
+from foilstudy.study.elements.frozen import FrozenShape, frozen_errors
 from foilstudy.study.elements.plan import BASELINE, DEFAULT
-from foilstudy.study.elements.scene import COARSE, DIAMETER, REFERENCE_HEIGHT
+from foilstudy.study.elements.scene import COARSE, DIAMETER, REFERENCE_HEIGHT, foil_of
 from foilstudy.study.elements.variants import VARIANTS
 from foilstudy.study.kernel import Record, case_name
 from foilstudy.study.kernel.files import read_records, write_record
@@ -50,7 +52,7 @@ def test_errors_of_a_frozen_shape_are_relative_to_the_mean_of_the_referees():
     patch = Patch.for_cylinder(DIAMETER, REFERENCE_HEIGHT, COARSE)
     points = cylinder_control_points(patch, DIAMETER)
     variant = VARIANTS[DEFAULT]
-    own = stiffness_of(variant, patch, points, 500e-6)
+    own = stress_free_stiffness(Shape(foil_of(500e-6), patch, points, points, variant.element))
     shape = FrozenShape(500e-6, points, np.array([own, 3 * own]))
     assert frozen_errors(variant, shape) == pytest.approx((-0.5, -0.5), rel=1e-9)
 

@@ -12,12 +12,15 @@ from conftest import DIAMETER, FOIL, GAP_HEIGHT, THICKNESS, cylinder
 from scipy.io import loadmat
 from test_workflow import changed, plan
 
-from foilstudy.base.record import Quantity, write_record
+from foilstudy.base.record import write_record
 from foilstudy.command import main
 from foilstudy.config import Export, load_config
-from foilstudy.export import FORMATS, Contents, write
-from foilstudy.export.contents import surface_grid
+from foilstudy.config.foils import foil_of
+from foilstudy.config.scene import recipe_of
+from foilstudy.export.contents import Contents, surface_grid
 from foilstudy.export.energies import element_energies, principal_strains
+from foilstudy.export.formats import FORMATS
+from foilstudy.export.write import write
 from foilstudy.measure.dynamics import (
     DEFINITIONS,
     HintzHerting,
@@ -35,11 +38,13 @@ from foilstudy.measure.stiffness.directional import DIRECTIONS
 from foilstudy.model.patch import RING_ROWS
 from foilstudy.model.shell.elements import ELEMENTS
 from foilstudy.model.shell.shell import Shell
-from foilstudy.pipeline.crumpled import Crumple
+from foilstudy.pipeline.crumpled import described
+from foilstudy.pipeline.shape import Shape
 from foilstudy.pipeline.structures import stress_free_structure
 from foilstudy.pipeline.surface import SurfaceGrid, sheet_from_grid
 from foilstudy.pipeline.surface.fit import fitted_patch
 from foilstudy.study.sweep.export import contents_of, export_realisation
+from foilstudy.study.sweep.quantities import quantities
 
 MODES = 4
 RATIO = 0.05
@@ -49,7 +54,7 @@ VISCOUS = [ModalDamping(RATIO), RayleighDamping.between(RATIO, 20.0, 300.0)]
 @pytest.fixture(scope="module")
 def contents(coarse_crumple):
     sheet = coarse_crumple.sheet
-    crumple = Crumple(FOIL, sheet.patch, coarse_crumple.points, sheet.reference, sheet.element)
+    crumple = Shape(FOIL, sheet.patch, coarse_crumple.points, sheet.reference, sheet.element)
     return Contents(
         crumple,
         HintzHerting(400.0).reduce(stress_free_structure(crumple)),
@@ -381,15 +386,18 @@ def realisation(coarse_crumple, tmp_path):
     study = load_config(STUDY)
     (cell,) = study.cells()
     folder = tmp_path / "realisations" / cell.thickness_id / cell.overlength_id / str(cell.seed)
-    control = ("component", "row", "column")
-    shape = {
-        "control_points": Quantity(coarse_crumple.points, "m", "crumpled", control),
-        "reference_control_points": Quantity(coarse_crumple.sheet.reference, "m", "flat", control),
+    task = study.crumple_task(cell)
+    values = {
+        "control_points": coarse_crumple.points,
+        "reference_control_points": coarse_crumple.sheet.reference,
+        "equilibrium_residual": coarse_crumple.result.residual,
+        **dict.fromkeys(("negative_eigenvalues", "steps", "newton_steps", "hessians"), 0.0),
     }
 
     def record(status, message="as it should be"):
-        attributes = {"status": status, "message": message, "element": "corner"}
-        write_record(folder / "crumple.nc", shape, attributes)
+        attributes = described(foil_of(task), recipe_of(task))
+        attributes |= {"status": status, "message": message}
+        write_record(folder / "crumple.nc", quantities(values), attributes)
 
     record("converged")
     (tmp_path / "study.yaml").write_text(study.to_yaml())

@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 
 from foilstudy.base.record import read_record
-from foilstudy.config.scene import foil_of
+from foilstudy.config.foils import foil_of
+from foilstudy.config.scene import recipe_of
 from foilstudy.measure.stiffness import prestressed_stiffness
-from foilstudy.pipeline.crumpled import Crumple
+from foilstudy.pipeline.shape import Shape
 from foilstudy.pipeline.structures import stress_free_structure
 
 KEPT_CELL = "t500um_h170mm_corner_krylov"
@@ -57,16 +58,17 @@ def test_a_cell_is_the_same_to_the_last_bit(name, compiled, tmp_path):
 def test_the_stiffness_of_a_kept_shape_is_the_same_everywhere():
     study = frozen.study_of(KEPT_CELL)
     (cell,) = study.cells()
+    task = study.crumple_task(cell)
+    foil, recipe = foil_of(task), recipe_of(task)
     with np.load(frozen.FOLDER / "shape.npz") as kept:
         kept = dict(kept)
-    attributes = {"element": study.mesh.element}
-    shape = Crumple.recorded(foil_of(study.crumple_task(cell)), kept, attributes)
-    sheet = shape.sheet(shape.reference)
-    energies = sheet.energies(shape.points)
+    shapes = kept["control_points"], kept["reference_control_points"]
+    shape = Shape(foil, recipe.mesh.patch(foil), *shapes, recipe.mesh.element_at_work())
+    energies = shape.energies()
     np.testing.assert_allclose(energies.membrane, kept["membrane_energy"], rtol=1e-9)
     np.testing.assert_allclose(energies.bending, kept["bending_energy"], rtol=1e-9)
     stiffness = stress_free_structure(shape).static.stiffness
     scale = np.abs(kept["interface_stiffness"]).max()
     np.testing.assert_allclose(stiffness, kept["interface_stiffness"], rtol=1e-9, atol=1e-9 * scale)
-    stressed = prestressed_stiffness(sheet, shape.points)
+    stressed = prestressed_stiffness(shape.stressed, shape.points)
     np.testing.assert_allclose(stressed, kept["prestressed_stiffness"], rtol=1e-9)

@@ -18,9 +18,9 @@ from foilstudy.model.supports.edges import (
 from foilstudy.model.supports.interpolation import as_vector
 from foilstudy.model.supports.loads import DeadLoad, EdgeMoment, area_load, edge_load, point_load
 from foilstudy.solve.equilibrium.newton import minimise
-from foilstudy.solve.paths.buckling import buckling_modes
-from foilstudy.solve.paths.loaded_sheet import LoadedSheet
-from foilstudy.solve.paths.path import follow_load
+from foilstudy.solve.loading.buckling import buckling_modes
+from foilstudy.solve.loading.loaded_sheet import LoadedSheet
+from foilstudy.solve.loading.path import follow_load
 
 LENGTH, WIDTH, THICKNESS = 1.0, 0.2, 0.01
 NO_POISSON = Material(youngs_modulus=1e9, poisson_ratio=0.0, density=1.0, yield_stress=1.0)

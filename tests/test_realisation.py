@@ -11,9 +11,9 @@ from foilstudy.base.record import Quantity, read_record, write_record
 from foilstudy.config import load_config
 from foilstudy.measure.stiffness import fixed_stiffness
 from foilstudy.model.patch import knot_points
-from foilstudy.study.sweep.crumple import crumple
+from foilstudy.study.sweep.crumple import crumple_job
 from foilstudy.study.sweep.cylinder import cylinder_bounds
-from foilstudy.study.sweep.respond import respond
+from foilstudy.study.sweep.respond import respond_job
 
 
 def study(**sections):
@@ -41,8 +41,8 @@ def run(config, folder):
     """Both records of the first cell."""
     cell = config.cells()[0]
     crumpled, responded = folder / "crumple.nc", folder / "response.nc"
-    crumple(config.crumple_task(cell), crumpled)
-    respond(config.response_task(cell), crumpled, responded)
+    crumple_job(config.crumple_task(cell), crumpled)
+    respond_job(config.response_task(cell), crumpled, responded)
     return SimpleNamespace(
         crumple=read_record(crumpled)[0],
         crumple_attributes=read_record(crumpled)[1],
@@ -138,7 +138,7 @@ def test_a_fault_of_the_machine_is_no_record(tmp_path, monkeypatch):
     def explode(*_):
         raise MemoryError("no room for the history")
 
-    monkeypatch.setattr(sys.modules["foilstudy.study.sweep.crumple"], "relax", explode)
+    monkeypatch.setattr(sys.modules["foilstudy.study.sweep.crumple"], "crumple", explode)
     with pytest.raises(MemoryError):
         run(study(), tmp_path)
     assert not list(tmp_path.iterdir())
@@ -148,7 +148,7 @@ def test_a_crash_while_crumpling_becomes_a_flagged_record(tmp_path, monkeypatch)
     def explode(*_):
         raise ArithmeticError("no root")
 
-    monkeypatch.setattr(sys.modules["foilstudy.study.sweep.crumple"], "relax", explode)
+    monkeypatch.setattr(sys.modules["foilstudy.study.sweep.crumple"], "crumple", explode)
     records = run(study(), tmp_path)
     assert records.crumple_attributes["status"] == "failed"
     assert records.crumple_attributes["message"] == "ArithmeticError: no root"
@@ -160,7 +160,7 @@ def test_a_crash_while_measuring_becomes_a_flagged_record(tmp_path, monkeypatch)
     def explode(*_):
         raise RuntimeError("no factor")
 
-    monkeypatch.setattr(sys.modules["foilstudy.study.sweep.respond"], "condense", explode)
+    monkeypatch.setattr(sys.modules["foilstudy.study.sweep.respond"], "vibration_of", explode)
     records = run(study(), tmp_path)
     assert records.crumple_attributes["status"] == "converged"
     assert records.response_attributes["status"] == "failed"

@@ -18,9 +18,10 @@ from foilstudy.measure.stiffness import InterfaceSystem, Rings, condense
 from foilstudy.model.foil import Material
 from foilstudy.model.patch import RING_ROWS, Patch, cylinder_control_points
 from foilstudy.model.shell.shell import Shell
+from foilstudy.solve.problem import Problem
 from foilstudy.solve.relaxation import Ramp, Scheme, StoppingRule, relax
-from foilstudy.solve.relaxation.damping import AdaptiveViscousDamping
-from foilstudy.solve.relaxation.spectral_mass import SpectralMass
+from foilstudy.solve.relaxation.damping.adaptive_viscous import AdaptiveViscousDamping
+from foilstudy.solve.relaxation.mass.spectral import SpectralMassScaling
 
 FREE = slice(RING_ROWS, -RING_ROWS)
 SAFETY = 1.5
@@ -68,7 +69,7 @@ def test_spectral_solution_equals_the_dense_one(columns, along, thickness):
     momentum = np.random.default_rng(0).standard_normal((3, patch.rows - 4, columns))
     dense = dense_mass(sheet, SAFETY)
     expected = np.linalg.solve(dense, momentum.reshape(3, -1).T).T.reshape(momentum.shape)
-    velocity = SpectralMass(sheet, SAFETY).velocity(momentum)
+    velocity = SpectralMassScaling(SAFETY).start(sheet.section).velocity(momentum)
     tolerance = 10 * np.finfo(float).eps * np.linalg.cond(dense) * np.abs(expected).max()
     np.testing.assert_allclose(velocity, expected, rtol=0, atol=tolerance)
 
@@ -77,7 +78,7 @@ def largest_frequency_squared(sheet, safety, iterations=300):
     """Largest eigenvalue of M^-1 K by power iteration, from below."""
     rows, columns = sheet.patch.rows, sheet.patch.columns
     stiffness = sheet.tangent()
-    mass = SpectralMass(sheet, safety)
+    mass = SpectralMassScaling(safety).start(sheet.section)
     motion = np.zeros((3, rows, columns))
     motion[:, FREE] = np.random.default_rng(0).standard_normal(motion[:, FREE].shape)
     for _ in range(iterations):
@@ -132,17 +133,19 @@ def test_ring_moves_by_the_shortening_and_stays_rigid(coarse_crumple):
 
 def test_damping_is_critical_for_the_current_motion():
     # one oscillator, omega = 0.3: v (f - f_old) = omega^2 m v^2 for a step of 1
-    damping = AdaptiveViscousDamping()
+    damping = AdaptiveViscousDamping().start()
     assert damping.coefficient(0.0, 0.0) == 0.0
     assert damping.coefficient(0.09 * 2.0, 2.0) == pytest.approx(2 * 0.3, rel=1e-14)
     assert damping.coefficient(-0.09 * 2.0, 2.0) == pytest.approx(2 * 0.3, rel=1e-14)
-    assert AdaptiveViscousDamping(0.25).coefficient(0.18, 2.0) == pytest.approx(0.15, rel=1e-14)
+    assert AdaptiveViscousDamping(0.25).start().coefficient(0.18, 2.0) == pytest.approx(
+        0.15, rel=1e-14
+    )
     # a larger one would reverse the motion
-    assert AdaptiveViscousDamping().coefficient(100.0, 1.0) < 2.0
+    assert AdaptiveViscousDamping().start().coefficient(100.0, 1.0) < 2.0
 
 
 def test_damping_follows_a_change_over_its_memory():
-    damping = AdaptiveViscousDamping(memory=50)
+    damping = AdaptiveViscousDamping(memory=50).start()
     for _ in range(1000):
         damping.coefficient(1.0, 1.0)
     for _ in range(50):
@@ -170,9 +173,9 @@ def test_history_ends_at_the_result(coarse_crumple):
     history = result.history
     energies = sheet.energies(result.points)
     assert history.step[0] == 0 and history.step[-1] == result.steps
-    assert history.membrane_energy[-1] == pytest.approx(energies.membrane, rel=1e-12)
-    assert history.bending_energy[-1] == pytest.approx(energies.bending, rel=1e-12)
-    assert history.stabilisation_energy[-1] == pytest.approx(energies.stabilisation, rel=1e-12)
+    assert history.energies["membrane"][-1] == pytest.approx(energies.membrane, rel=1e-12)
+    assert history.energies["bending"][-1] == pytest.approx(energies.bending, rel=1e-12)
+    assert history.energies["stabilisation"][-1] == pytest.approx(energies.stabilisation, rel=1e-12)
     assert history.reaction_force[-1] == pytest.approx(reaction(sheet, result.points), rel=1e-9)
     assert history.residual[-1] == result.residual
 
@@ -183,7 +186,6 @@ def test_step_limit_is_a_verdict_that_names_both_numbers():
     assert result.status == "not_converged"
     assert result.steps == 137
     assert f"{result.residual:.1e} (wanted 1.0e-08)" in result.message
-    assert f"{result.kinetic_energy_ratio:.1e} (wanted 1.0e-08)" in result.message
     assert "137" in result.message
     assert relative_residual(sheet, result.points) == pytest.approx(result.residual, rel=1e-9)
 
@@ -206,7 +208,8 @@ def test_shape_is_independent_of_youngs_modulus_and_force_proportional():
     )
     assert np.array_equal(first.points, second.points)
     assert np.array_equal(4 * first.history.reaction_force, second.history.reaction_force)
-    assert np.array_equal(4 * first.history.bending_energy, second.history.bending_energy)
+    bending = first.history.energies["bending"], second.history.energies["bending"]
+    assert np.array_equal(4 * bending[0], bending[1])
     assert first.residual == second.residual
 
 
@@ -238,11 +241,12 @@ def test_symmetry_of_the_cylinder_carries_over_to_the_crumple(symmetry):
     shapes = []
     for reference in (perfect + deviation, symmetry(perfect + deviation)):
         sheet = Shell.elastic(patch, reference, FEP, THICKNESS)
-        scheme = Scheme(
-            SpectralMass(sheet, SAFETY), AdaptiveViscousDamping(0.5), AdaptiveViscousDamping(0.25)
-        )
-        rule = StoppingRule(1e-8, 1e-8, relaxation_steps_max=200)
-        shapes.append(relax(sheet, scheme, Ramp(5e-3, 300), rule).points)
+        problem = Problem(sheet)
+        motion = Scheme(
+            SpectralMassScaling(SAFETY), relaxation_damping=AdaptiveViscousDamping(0.25)
+        ).start(problem)
+        rule = StoppingRule(1e-8, relaxation_steps_max=200)
+        shapes.append(relax(problem, motion, Ramp(5e-3, 300), rule).points)
     moved = np.abs(np.hypot(*shapes[0][:2]) - np.hypot(*perfect[:2])).max()
     assert moved > 5e-3  # ten times the thickness: it has buckled
     np.testing.assert_allclose(shapes[1], symmetry(shapes[0]), rtol=0, atol=1e-10 * moved)

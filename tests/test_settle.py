@@ -16,17 +16,23 @@ from conftest import (
 from foilstudy.linalg import factorise
 from foilstudy.model.patch import RING_ROWS, Patch, cylinder_control_points
 from foilstudy.model.shell.shell import Shell
-from foilstudy.pipeline.scheme import crumpling_scheme
 from foilstudy.solve.equilibrium.settle import HeldSheet, SettleOptions, settle, stopped_at
+from foilstudy.solve.problem import Problem
 from foilstudy.solve.relaxation import Ramp, Scheme, StoppingRule, relax
-from foilstudy.solve.relaxation.damping import AdaptiveViscousDamping
-from foilstudy.solve.relaxation.spectral_mass import SpectralMass
+from foilstudy.solve.relaxation.damping.adaptive_viscous import AdaptiveViscousDamping
 
 FREE = slice(RING_ROWS, -RING_ROWS)
 
 
-def scheme(sheet):
-    return Scheme(SpectralMass(sheet), AdaptiveViscousDamping(0.5), AdaptiveViscousDamping(0.25))
+def started(problem):
+    """Damped more than in a study."""
+    scheme = Scheme(relaxation_damping=AdaptiveViscousDamping(0.25))
+    return scheme.start(problem)
+
+
+def settled_from(sheet, points, options=None):
+    problem = Problem(sheet)
+    return settle(problem, started(problem), points, options)
 
 
 def relative_residual(sheet, points):
@@ -52,7 +58,7 @@ def after_ramp():
 @pytest.fixture(scope="module")
 def settled(after_ramp):
     sheet, points = after_ramp
-    return settle(sheet, scheme(sheet), points)
+    return settled_from(sheet, points)
 
 
 def test_settled_crumple_is_a_stable_equilibrium(after_ramp, settled):
@@ -73,10 +79,11 @@ def test_rings_do_not_move_in_any_bit(after_ramp, settled):
 def test_settling_ends_in_the_basin_of_the_relaxation(coarse_crumple):
     """Where the relaxation of the study gives way, and where it would have gone by itself."""
     sheet = imperfect_sheet(10e-3)
-    same = crumpling_scheme(sheet)
-    rule = StoppingRule(SettleOptions().switch_residual, np.inf, 20_000)
-    near = relax(sheet, same, Ramp(REFERENCE_HEIGHT - GAP_HEIGHT, 1000), rule)
-    ended = settle(sheet, same, near.points)
+    problem = Problem(sheet)
+    motion = Scheme().start(problem)
+    rule = StoppingRule(SettleOptions().switch_residual, 20_000)
+    near = relax(problem, motion, Ramp(REFERENCE_HEIGHT - GAP_HEIGHT, 1000), rule)
+    ended = settle(problem, motion, near.points)
     assert np.abs(ended.points - coarse_crumple.points).max() < 1e-6
     assert (ended.relaxation_steps, ended.hessians) == (0, 1)
     assert near.steps < coarse_crumple.result.steps - 500
@@ -84,14 +91,14 @@ def test_settling_ends_in_the_basin_of_the_relaxation(coarse_crumple):
 
 def test_settled_again_it_stays_where_it_is(after_ramp, settled):
     sheet, _ = after_ramp
-    again = settle(sheet, scheme(sheet), settled.points)
+    again = settled_from(sheet, settled.points)
     assert (again.status, again.relaxation_steps, again.hessians) == ("converged", 0, 0)
     assert np.array_equal(again.points, settled.points)
 
 
 def test_the_same_bits_every_time(after_ramp, settled):
     sheet, points = after_ramp
-    assert np.array_equal(settle(sheet, scheme(sheet), points).points, settled.points)
+    assert np.array_equal(settled_from(sheet, points).points, settled.points)
 
 
 def mirrored(points):
@@ -109,7 +116,7 @@ def test_mirrored_sheet_settles_into_the_mirrored_crumple():
     for reference in (perfect + deviation, mirrored(perfect + deviation)):
         sheet = Shell.elastic(patch, reference, FEP, THICKNESS)
         start = relaxed(sheet, 10e-3, ramp_steps=300, steps_max=0).points
-        result = settle(sheet, scheme(sheet), start)
+        result = settled_from(sheet, start)
         assert result.status == "converged", result.message
         shapes.append(result.points)
     moved = np.abs(np.hypot(*shapes[0][:2]) - np.hypot(*perfect[:2])).max()
@@ -121,11 +128,12 @@ def test_axisymmetric_state_of_a_buckled_cylinder_is_left():
     """Beyond the classical load the axisymmetric state is an equilibrium, but a saddle."""
     sheet = cylinder(20e-3)
     # damped more than in a study, lest rounding errors grow along the buckling modes
-    ring = relax(sheet, scheme(sheet), Ramp(2e-3, 200), StoppingRule(1e-8, 1e-8, 2000))
+    problem = Problem(sheet)
+    ring = relax(problem, started(problem), Ramp(2e-3, 200), StoppingRule(1e-8, 2000))
     radius = np.hypot(*ring.points[:2])
     assert np.ptp(radius, axis=1).max() < 1e-9
     assert negative_eigenvalues(sheet, ring.points) > 0
-    result = settle(sheet, scheme(sheet), ring.points)
+    result = settled_from(sheet, ring.points)
     assert (result.status, result.negative_eigenvalues) == ("converged", 0)
     assert np.ptp(np.hypot(*result.points[:2]), axis=1).max() > THICKNESS
     assert sheet.energies(result.points).total < sheet.energies(ring.points).total
@@ -136,7 +144,7 @@ def test_held_sheet_differentiates_its_energy():
     rng = np.random.default_rng(3)
     start = sheet.reference.copy()
     start[:, FREE] += 2e-3 * rng.standard_normal(start[:, FREE].shape)
-    held = HeldSheet(sheet, start)
+    held = HeldSheet(Problem(sheet), start)
     q = held.unknowns(start)
     assert np.array_equal(held.points(q), start)
     direction = rng.standard_normal(q.size) / np.sqrt(q.size)
@@ -153,7 +161,8 @@ def test_held_sheet_differentiates_its_energy():
 def test_shapes_at_falling_residuals_come_closer_to_the_equilibrium(after_ramp, settled):
     sheet, points = after_ramp
     wanted = (1e-2, 1e-4, 1e-6)
-    stops = list(stopped_at(sheet, scheme(sheet), points, wanted))
+    problem = Problem(sheet)
+    stops = list(stopped_at(problem, started(problem), points, wanted))
     assert tuple(residual for residual, _ in stops) == wanted
     assert all(relative_residual(sheet, shape) <= residual for residual, shape in stops)
     distance = [np.abs(shape - settled.points).max() for _, shape in stops]
@@ -162,21 +171,22 @@ def test_shapes_at_falling_residuals_come_closer_to_the_equilibrium(after_ramp, 
 
 def test_residual_that_is_not_reached_ends_the_series(after_ramp):
     sheet, points = after_ramp
-    assert not list(stopped_at(sheet, scheme(sheet), points, [1e-9], relaxation_steps_max=20))
+    problem = Problem(sheet)
+    assert not list(stopped_at(problem, started(problem), points, [1e-9], 20))
 
 
 def test_what_the_minimisation_does_not_end_is_relaxed_further(after_ramp):
     sheet, points = after_ramp
     assert relative_residual(sheet, points) < 1
     options = SettleOptions(switch_residual=1.0, hessians_per_round=1)
-    result = settle(sheet, scheme(sheet), points, options)
+    result = settled_from(sheet, points, options)
     assert (result.status, result.negative_eigenvalues) == ("converged", 0)
     assert result.relaxation_steps > 0
 
 
 def test_without_steps_left_the_tangent_takes_over(after_ramp):
     sheet, points = after_ramp
-    result = settle(sheet, scheme(sheet), points, SettleOptions(relaxation_steps_max=20))
+    result = settled_from(sheet, points, SettleOptions(relaxation_steps_max=20))
     assert (result.status, result.relaxation_steps) == ("converged", 20), result.message
     assert relative_residual(sheet, result.points) <= 1e-8
     assert negative_eigenvalues(sheet, result.points) == 0
@@ -186,7 +196,7 @@ def test_without_steps_left_the_tangent_takes_over(after_ramp):
 def test_too_little_work_is_no_success(after_ramp):
     sheet, points = after_ramp
     options = SettleOptions(relaxation_steps_max=20, hessians_last=1)
-    result = settle(sheet, scheme(sheet), points, options)
+    result = settled_from(sheet, points, options)
     assert (result.status, result.relaxation_steps) == ("not_converged", 20)
     assert result.residual > 1e-8
     assert "wanted 1.0e-08" in result.message
@@ -195,7 +205,7 @@ def test_too_little_work_is_no_success(after_ramp):
 def test_minimisation_that_ends_early_is_no_success(after_ramp):
     sheet, points = after_ramp
     options = SettleOptions(residual_tolerance=1e-16, hessians_per_round=1, rounds_max=2)
-    result = settle(sheet, scheme(sheet), points, options)
+    result = settled_from(sheet, points, options)
     assert result.status == "not_converged"
     assert result.hessians <= 2
     assert "wanted 1.0e-16" in result.message

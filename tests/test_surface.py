@@ -11,7 +11,8 @@ from foilstudy.export.contents import surface_grid
 from foilstudy.measure.dynamics import HintzHerting
 from foilstudy.measure.stiffness import InterfaceSystem, Rings, condense, fixed_stiffness
 from foilstudy.model.patch import knot_points
-from foilstudy.pipeline.crumpled import Crumple
+from foilstudy.pipeline.shape import Shape
+from foilstudy.pipeline.static import stress_free_stiffness
 from foilstudy.pipeline.structures import stress_free_structure
 from foilstudy.pipeline.surface import Limits, SurfaceGrid, read_grid, sheet_from_grid
 from foilstudy.pipeline.surface.fit import fitted_patch
@@ -32,9 +33,7 @@ def dented(rows, columns, depth=DEPTH):
 
 
 def static(crumple):
-    matrix = crumple.sheet(crumple.points).tangent()
-    rings = Rings.of(crumple.patch, crumple.points)
-    return fixed_stiffness(condense(InterfaceSystem.split(matrix, rings)).stiffness)
+    return stress_free_stiffness(crumple)
 
 
 def sheet(points, **options):
@@ -45,7 +44,7 @@ def sheet(points, **options):
 def own(coarse_crumple):
     """The coarse crumple as a study has it."""
     model = coarse_crumple.sheet
-    return Crumple(FOIL, model.patch, coarse_crumple.points, model.reference, model.element)
+    return Shape(FOIL, model.patch, coarse_crumple.points, model.reference, model.element)
 
 
 # --- what a grid becomes -------------------------------------------------------------------------

@@ -1,18 +1,35 @@
-"""Stiffness of crumpled foil cylinders: crumple, measure, gather, fit, report.
+"""Statics and dynamics of crumpled foil cylinders: crumple, measure, gather, fit, report.
 
-Heavy modules load on first use, so that ``import foilstudy`` stays cheap.
+In a notebook::
+
+    from foilstudy import Foil, Mesh, crumple, material
+
+    foil = Foil(0.2, 0.17, 0.13, 500e-6, material("FEP"))  # diameter, heights, thickness, m
+    crumpled = crumple(foil, Mesh(5e-3))
+    crumpled.stiffness()                                   # axial and radial, N/m
+    crumpled.plot()
+
+Whole studies run from one configuration file: ``foilstudy run FILE``. Heavy modules load on first
+use, so that ``import foilstudy`` stays cheap.
 """
 
 from importlib import import_module
 
 _LAZY = {
-    "ConfigError": "foilstudy.config",
+    "ConfigError": "foilstudy.base.errors",
+    "Crumpled": "foilstudy.pipeline.crumpled",
+    "DynamicsOptions": "foilstudy.measure.dynamics.options",
+    "Foil": "foilstudy.model.foil",
+    "Imperfection": "foilstudy.model.foil",
+    "Material": "foilstudy.model.foil",
+    "Mesh": "foilstudy.pipeline.method",
+    "Method": "foilstudy.pipeline.method",
     "StudyConfig": "foilstudy.config",
-    "load_config": "foilstudy.config",
-    "crumple": "foilstudy.study.sweep.crumple",
+    "crumple": "foilstudy.pipeline.crumple",
     "gather": "foilstudy.study.sweep.cube",
-    "open_cube": "foilstudy.study.sweep.cube",
-    "respond": "foilstudy.study.sweep.respond",
+    "load_config": "foilstudy.config",
+    "material": "foilstudy.model.materials",
+    "open_cube": "foilstudy.base.cube",
 }
 
 __all__ = sorted(_LAZY)
@@ -24,3 +41,7 @@ def __getattr__(name: str):
     if name in _LAZY:
         return getattr(import_module(_LAZY[name]), name)
     raise AttributeError(f"module 'foilstudy' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__, "__version__"})

@@ -4,7 +4,7 @@ import sys
 from pathlib import Path
 
 from foilstudy.config import RefineTask
-from foilstudy.study.sweep.relax_refined import relax_refined
+from foilstudy.study.sweep.relax_refined import refine_job
 
 task_json, crumple_nc, refined_nc = sys.argv[1:]
-relax_refined(RefineTask.model_validate_json(task_json), Path(crumple_nc), Path(refined_nc))
+refine_job(RefineTask.model_validate_json(task_json), Path(crumple_nc), Path(refined_nc))

@@ -15,6 +15,7 @@ from cyclopts import App
 
 from .check import check
 from .export import export
+from .report import report
 from .run import run
 
 __all__ = ["app", "main"]
@@ -26,7 +27,7 @@ app = App(
     result_action="return_value",
 )
 app.register_install_completion_command()
-for command in (check, run, export):
+for command in (check, run, export, report):
     app.command(command)
 
 

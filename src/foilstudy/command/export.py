@@ -31,7 +31,8 @@ def export(
     refinements : int
         Halve the elements so often before.
     """
-    from foilstudy.export import FORMATS, check_format, write
+    from foilstudy.export.formats import FORMATS, check_format
+    from foilstudy.export.write import write
     from foilstudy.linalg import SolveError
     from foilstudy.study.sweep.export import contents_of, recorded_task
 

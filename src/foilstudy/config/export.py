@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Literal
 
+from foilstudy.export.formats import FORMATS
+
 from .sections import Section, unit_field
 
 __all__ = ["Export"]
@@ -16,11 +18,9 @@ class Export(Section):
     `docs/exchange.md`.
     """
 
-    formats: tuple[Literal["nc", "mat", "uff", "csv", "vtu", "npz", "inp"], ...] = unit_field(
+    formats: tuple[Literal[tuple(FORMATS)], ...] = unit_field(
         "list of choices",
-        "`nc`, `mat`: reduced model for Python and MATLAB; `uff`, `csv`: dynamic stiffness as "
-        "Universal File and table; `vtu`, `npz`: crumpled shape for ParaView and NumPy; `inp`: "
-        "shell model for CalculiX.",
+        "; ".join(f"`{name}`: {kind.content}" for name, kind in FORMATS.items()) + ".",
         (),
         strict=False,
     )

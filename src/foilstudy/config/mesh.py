@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from dataclasses import dataclass
+from typing import Annotated, Any
 
 from pydantic import Field, PlainSerializer, WithJsonSchema, WrapValidator, model_validator
 
 from foilstudy.model.foil import SMOOTH_LENGTH_MIN
 from foilstudy.model.mesh_size import element_size_for
+from foilstudy.model.shell.elements import ELEMENTS
 
-from .sections import Section, unit_field
-
-if TYPE_CHECKING:
-    from .model import StudyConfig
+from .sections import Section, choice_field, choice_of, unit_field
 
 AUTO = "auto"
 ENERGY_ERROR_DEFAULT_PERCENT = 10.0
@@ -58,12 +57,8 @@ class Mesh(Section):
         ge=0.1,
         le=100,
     )
-    element: Literal["corner", "one_point"] = unit_field(
-        "choice",
-        "Where an element samples its strains. `corner`: where folds do not stretch it; "
-        "`one_point`: in its middle, much too stiff at unresolved ridges, as in the published "
-        "work.",
-        "corner",
+    element: choice_of(ELEMENTS) = choice_field(
+        ELEMENTS, "corner", "Where an element samples its strains. "
     )
 
     @model_validator(mode="before")
@@ -100,21 +95,42 @@ class Mesh(Section):
         return Mesh(element_size_mm=round(1e3 * size, 9), element=self.element)
 
 
-def mesh_problems(study: StudyConfig) -> Iterator[str]:
+@dataclass(frozen=True)
+class MeshUse:
+    """What a mesh is to carry.
+
+    Attributes
+    ----------
+    diameter_mm : float
+    heights_mm, thicknesses_um : tuple of float
+        Rising.
+    refinements : int
+        Of the stiffness.
+    correlation_length_mm : float or None
+        Of the imperfection.
+    """
+
+    diameter_mm: float
+    heights_mm: tuple[float, ...]
+    thicknesses_um: tuple[float, ...]
+    refinements: int
+    correlation_length_mm: float | None
+
+
+def mesh_problems(mesh: Mesh, use: MeshUse) -> Iterator[str]:
     """One sentence for each problem of the meshes, with its remedy."""
-    mesh = study.mesh
     if mesh.element_size_mm != AUTO:
-        yield from _size_problems(study, mesh.element_size_mm, "")
+        yield from _size_problems(use, mesh.element_size_mm, "")
         return
     # the thinnest foil has the finest mesh, the thickest one the coarsest
-    for thickness in sorted({min(study.sweep.thickness_um), max(study.sweep.thickness_um)}):
+    for thickness in sorted({use.thicknesses_um[0], use.thicknesses_um[-1]}):
         which = f" (auto, {thickness:g} um, {mesh.energy_error_percent:g} % of energy error)"
-        yield from _size_problems(study, study.mesh_of(thickness).element_size_mm, which)
+        size = mesh.resolved(use.diameter_mm / 2, thickness).element_size_mm
+        yield from _size_problems(use, size, which)
 
 
-def _size_problems(study: StudyConfig, size: float, which: str) -> Iterator[str]:
-    circumference = math.pi * study.sheet.diameter_mm
-    heights = study.reference_heights_mm
+def _size_problems(use: MeshUse, size: float, which: str) -> Iterator[str]:
+    circumference, heights = math.pi * use.diameter_mm, use.heights_mm
     around, along = round(circumference / size), round(heights[0] / size)
     if around < ELEMENTS_AROUND_MIN or along < ELEMENTS_ALONG_MIN:
         finest = min(circumference / ELEMENTS_AROUND_MIN, heights[0] / ELEMENTS_ALONG_MIN)
@@ -126,8 +142,8 @@ def _size_problems(study: StudyConfig, size: float, which: str) -> Iterator[str]
         )
     else:
         lengths = [height / round(height / size) for height in heights]
-        yield from _smoothing_problems(study, max(circumference / around, *lengths))
-    finest = size / 2**study.stiffness.refinements
+        yield from _smoothing_problems(use, max(circumference / around, *lengths))
+    finest = size / 2**use.refinements
     elements = circumference * heights[-1] / finest**2
     if elements > ELEMENTS_MAX:
         coarser = size * math.sqrt(elements / ELEMENTS_MAX)
@@ -138,13 +154,13 @@ def _size_problems(study: StudyConfig, size: float, which: str) -> Iterator[str]
         )
         yield (
             f"mesh.element_size_mm is {size:g} mm{which}, which makes {elements:.2g} elements on "
-            f"the longest cylinder, refined {study.stiffness.refinements} times (at most "
+            f"the longest cylinder, refined {use.refinements} times (at most "
             f"{ELEMENTS_MAX:g}); {remedy}."
         )
 
 
-def _smoothing_problems(study: StudyConfig, size: float) -> Iterator[str]:
-    length = study.imperfection.correlation_length_mm
+def _smoothing_problems(use: MeshUse, size: float) -> Iterator[str]:
+    length = use.correlation_length_mm
     if length is not None and length < SMOOTH_LENGTH_MIN * size:
         yield (
             f"imperfection.correlation_length_mm is {length:g} mm, which elements of {size:.3g} mm "

@@ -12,11 +12,12 @@ from foilstudy.base.errors import ConfigError
 
 from .export import Export
 from .isolation import Isolation
-from .mesh import Mesh, mesh_problems
+from .mesh import Mesh, MeshUse, mesh_problems
 from .sections import (
     Dynamics,
     Imperfection,
     Material,
+    Method,
     Relaxation,
     Report,
     Section,
@@ -100,6 +101,7 @@ class StudyConfig(Section):
     )
     mesh: Mesh = Field(default_factory=Mesh, description="Discretisation.")
     relaxation: Relaxation = Field(default_factory=Relaxation, description="Dynamic relaxation.")
+    method: Method = Field(default_factory=Method, description="Strategies of crumpling.")
     stiffness: Stiffness = Field(default_factory=Stiffness, description="Static stiffness.")
     dynamics: Dynamics = Field(default_factory=Dynamics, description="Dynamic stiffness.")
     isolation: Isolation = Field(
@@ -110,7 +112,7 @@ class StudyConfig(Section):
 
     @model_validator(mode="after")
     def _check_across_sections(self) -> StudyConfig:
-        problems = list(self._height_problems()) or list(mesh_problems(self))
+        problems = list(self._height_problems()) or list(mesh_problems(self.mesh, self._mesh_use()))
         problems += self._thickness_problems()
         problems += _duplicates("sweep.thickness_um", self.sweep.thickness_um, thickness_id)
         if self.sweep.reference_height_mm is not None:
@@ -136,6 +138,15 @@ class StudyConfig(Section):
                     f"sheet.gap_height_mm ({gap:g} mm), so nothing would crumple; use a height "
                     "above the gap."
                 )
+
+    def _mesh_use(self) -> MeshUse:
+        return MeshUse(
+            self.sheet.diameter_mm,
+            self.reference_heights_mm,
+            self.thicknesses_um,
+            self.stiffness.refinements,
+            self.imperfection.correlation_length_mm,
+        )
 
     def mesh_of(self, thickness_um: float) -> Mesh:
         """Mesh of a thickness; with ``auto`` its element size is that of the stated error."""
@@ -224,6 +235,7 @@ class StudyConfig(Section):
             imperfection=self.imperfection,
             mesh=self.mesh_of(cell.thickness_um),
             relaxation=self.relaxation,
+            method=self.method,
             thickness_um=cell.thickness_um,
             reference_height_mm=cell.reference_height_mm,
             seed=cell.seed,
@@ -247,6 +259,7 @@ class StudyConfig(Section):
             sheet=self.sheet,
             material=self.material,
             relaxation=self.relaxation,
+            method=self.method,
             refinements=self.stiffness.relaxed_refinements,
             thickness_um=cell.thickness_um,
             reference_height_mm=cell.reference_height_mm,

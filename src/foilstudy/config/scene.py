@@ -1,51 +1,62 @@
-"""From a task (millimetres, micrometres) to the scene (SI)."""
+"""From a configuration to mesh, imperfection, method and dynamics (SI)."""
 
 from __future__ import annotations
 
-from foilstudy.config import CrumpleTask, RefineTask, ResponseTask
-from foilstudy.model.foil import Foil, Imperfection, Material
-from foilstudy.model.patch import Patch
+from foilstudy.config.mesh import Mesh as MeshSection
+from foilstudy.config.sections import Dynamics
+from foilstudy.config.tasks import CrumpleTask, RefineTask
+from foilstudy.measure.choices import STRESS_REMOVALS, STRUCTURAL_DAMPINGS
+from foilstudy.measure.dynamics import DynamicsOptions
+from foilstudy.model.foil import Imperfection
+from foilstudy.pipeline.crumpled import Recipe
+from foilstudy.pipeline.method import Mesh, Method
+from foilstudy.solve.choices import DAMPINGS, MASSES, PATHS
+from foilstudy.solve.equilibrium.settle import SettleOptions
+from foilstudy.solve.relaxation.scheme import RAMP_DAMPING, RELAXATION_DAMPING, Scheme
 
 
-def material_of(section) -> Material:
-    """SI material from the `material` section of a configuration."""
-    return Material(
-        youngs_modulus=section.youngs_modulus_mpa * 1e6,
-        poisson_ratio=section.poisson_ratio,
-        density=section.density_kg_m3,
-        yield_stress=section.yield_stress_mpa * 1e6,
-    )
-
-
-def foil_of(task: CrumpleTask | RefineTask | ResponseTask) -> Foil:
-    """The foil a task is about."""
-    return Foil(
-        diameter=task.sheet.diameter_mm * 1e-3,
-        reference_height=task.reference_height_mm * 1e-3,
-        gap_height=task.sheet.gap_height_mm * 1e-3,
-        thickness=task.thickness_um * 1e-6,
-        material=material_of(task.material),
-    )
-
-
-def imperfection_of(task: CrumpleTask) -> Imperfection:
-    """The imperfection of a task.
-
-    Its random stream is a function of thickness, height and seed alone, so that a configuration
-    keeps its realisations when the sweep around it changes.
-    """
+def recipe_of(task: CrumpleTask) -> Recipe:
+    """Mesh, imperfection and method of a task."""
     section = task.imperfection
-    return Imperfection(
+    imperfection = Imperfection(
         kind=section.kind,
         amplitude=section.amplitude_um * 1e-6,
         correlation_length=(section.correlation_length_mm or 0.0) * 1e-3,
-        stream=(task.seed, round(task.thickness_um * 1e3), round(task.reference_height_mm * 1e3)),
+        seed=task.seed,
     )
+    return Recipe(mesh_of(task.mesh), imperfection, method_of(task))
 
 
-def patch_of(task: CrumpleTask) -> Patch:
-    """The patch on which a task is crumpled."""
-    foil = foil_of(task)
-    return Patch.for_cylinder(
-        foil.diameter, foil.reference_height, task.mesh.element_size_mm * 1e-3
+def mesh_of(section: MeshSection) -> Mesh:
+    """The mesh, its element size a number already."""
+    return Mesh(section.element_size_mm * 1e-3, section.element)
+
+
+def method_of(task: CrumpleTask | RefineTask) -> Method:
+    """How the foil of a task is crumpled."""
+    method, relaxation = task.method, task.relaxation
+    damping = DAMPINGS[method.damping]
+    scheme = Scheme(MASSES[method.mass](), damping(RAMP_DAMPING), damping(RELAXATION_DAMPING))
+    settling = SettleOptions(
+        residual_tolerance=relaxation.residual_tolerance,
+        relaxation_steps_max=relaxation.relaxation_steps_max,
+        search=method.search,
+    )
+    path = PATHS[method.path](relaxation.ramp_steps, scheme, settling, relaxation.check_interval)
+    return Method(path, STRESS_REMOVALS[method.stress_removal]())
+
+
+def dynamics_of(section: Dynamics) -> DynamicsOptions:
+    """What is asked of the dynamics."""
+    damping = STRUCTURAL_DAMPINGS[section.damping]
+    return DynamicsOptions(
+        reduction=section.reduction,
+        tolerance=section.tolerance,
+        cutoff_hz=section.cutoff_hz,
+        lowest_hz=section.shown_min_hz,
+        highest_hz=section.shown_max_hz,
+        frequencies=section.frequencies,
+        damping=damping.of_share(section.damping_percent / 100, section.rayleigh_hz),
+        eigenfrequencies=section.eigenfrequencies,
+        mode_shapes=section.mode_shapes,
     )

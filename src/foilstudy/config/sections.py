@@ -13,9 +13,17 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from foilstudy.base.registry import Registry
+from foilstudy.measure.choices import (
+    MODAL_REDUCTIONS,
+    REDUCTIONS,
+    STRESS_REMOVALS,
+    STRUCTURAL_DAMPINGS,
+)
+from foilstudy.model.imperfections import IMPERFECTIONS
 from foilstudy.model.materials import MATERIALS
+from foilstudy.solve.choices import DAMPINGS, MASSES, PATHS, SEARCHES
 
-MODAL_REDUCTIONS = ("hintz_herting", "craig_bampton")
 CORRELATION_LENGTH_DEFAULT_MM = 15.0
 CONSTANTS = ("youngs_modulus_mpa", "poisson_ratio", "density_kg_m3", "yield_stress_mpa")
 
@@ -23,6 +31,16 @@ CONSTANTS = ("youngs_modulus_mpa", "poisson_ratio", "density_kg_m3", "yield_stre
 def unit_field(unit: str, description: str, default: Any = ..., **constraints: Any) -> Any:
     """Field of a section with its unit recorded for the schema and the reference page."""
     return Field(default, description=description, json_schema_extra={"unit": unit}, **constraints)
+
+
+def choice_of(registry: Registry) -> Any:
+    """Type of a field whose value is a name of a registry."""
+    return Literal[tuple(registry)]
+
+
+def choice_field(registry: Registry, default: str, what: str = "") -> Any:
+    """Field with the names of a registry for values, described by its words."""
+    return unit_field("choice", f"{what}{registry.words}", default)
 
 
 class Section(BaseModel):
@@ -165,12 +183,7 @@ class Sweep(Section):
 class Imperfection(Section):
     """Random deviation from the perfect cylinder that decides where the foil buckles."""
 
-    kind: Literal["gaussian", "smoothed", "buckling_modes"] = unit_field(
-        "choice",
-        "`gaussian`: independent normal offsets; `smoothed`: the same with a correlation length; "
-        "`buckling_modes`: random combination of classical buckling modes.",
-        "gaussian",
-    )
+    kind: choice_of(IMPERFECTIONS) = choice_field(IMPERFECTIONS, "gaussian")
     amplitude_um: float = unit_field(
         "um",
         "Standard deviation of each coordinate of a control point; of the radial one for "
@@ -232,6 +245,16 @@ class Relaxation(Section):
     )  # fmt: skip
 
 
+class Method(Section):
+    """Strategies of crumpling; each is recorded with its numbers in every result."""
+
+    path: choice_of(PATHS) = choice_field(PATHS, "relaxation")
+    mass: choice_of(MASSES) = choice_field(MASSES, "spectral")
+    damping: choice_of(DAMPINGS) = choice_field(DAMPINGS, "adaptive_viscous")
+    search: choice_of(SEARCHES) = choice_field(SEARCHES, "quasi_newton")
+    stress_removal: choice_of(STRESS_REMOVALS) = choice_field(STRESS_REMOVALS, "reset")
+
+
 class Stiffness(Section):
     """Static stiffness between the end rings."""
 
@@ -256,12 +279,8 @@ class Stiffness(Section):
 class Dynamics(Section):
     """Dynamic stiffness between the end rings."""
 
-    reduction: Literal["rational_krylov", "hintz_herting", "craig_bampton", "guyan"] = unit_field(
-        "choice",
-        "How the foil is reduced: `rational_krylov` chooses its order from the tolerance; "
-        "`hintz_herting` (as published) and `craig_bampton` keep the modes up to `cutoff_hz`; "
-        "`guyan` is quasi-static.",
-        "rational_krylov",
+    reduction: choice_of(REDUCTIONS) = choice_field(
+        REDUCTIONS, "rational_krylov", "How the foil is reduced. "
     )
     tolerance: float = unit_field(
         "1",
@@ -284,12 +303,7 @@ class Dynamics(Section):
     frequencies: int = unit_field(
         "1", "Number of frequencies, spaced logarithmically.", 200, ge=2, le=100_000
     )
-    damping: Literal["modal", "structural", "rayleigh"] = unit_field(
-        "choice",
-        "`modal`: the same share of the critical damping in every mode, as published; "
-        "`structural`: a loss factor of twice that share; `rayleigh`: that share at `rayleigh_hz`.",
-        "modal",
-    )
+    damping: choice_of(STRUCTURAL_DAMPINGS) = choice_field(STRUCTURAL_DAMPINGS, "modal")
     damping_percent: float = unit_field("%", "Share of the critical damping.", 5.0, gt=0, lt=100)
     rayleigh_hz: tuple[float, float] | None = unit_field(
         "list of Hz", "Two frequencies, rising, only for `rayleigh` damping.", None, strict=False

@@ -14,6 +14,7 @@ from .sections import (
     Height,
     Imperfection,
     Material,
+    Method,
     Relaxation,
     Section,
     Sheet,
@@ -43,12 +44,14 @@ class CrumpleTask(_Task):
     imperfection: Imperfection
     mesh: Mesh
     relaxation: Relaxation
+    method: Method
 
 
 class RefineTask(_Task):
     """Relax one crumpled realisation again on refined meshes."""
 
     relaxation: Relaxation
+    method: Method
     refinements: int = Field(ge=1)
 
 

@@ -8,9 +8,15 @@ from functools import cached_property
 
 import numpy as np
 
-from foilstudy.measure.dynamics import Damping, ReducedModel, interface_dynamic_stiffness
+from foilstudy.measure.dynamics import (
+    Damping,
+    DynamicsOptions,
+    ReducedModel,
+    interface_dynamic_stiffness,
+)
 from foilstudy.model.patch import RING_ROWS, knot_points, refine
-from foilstudy.pipeline.crumpled import Crumple
+from foilstudy.pipeline.shape import Shape
+from foilstudy.pipeline.structures import stress_free_structure
 
 POINTS_PER_ELEMENT = 2
 """Cells of the exported grid per element and direction: a biquadratic element is exactly the
@@ -23,7 +29,7 @@ class Contents:
 
     Attributes
     ----------
-    crumple : Crumple
+    crumple : Shape
     model : ReducedModel
         Of its stress-free structure.
     damping : Damping
@@ -35,12 +41,41 @@ class Contents:
         Mode shapes, rings clamped, that are written as fields.
     """
 
-    crumple: Crumple
+    crumple: Shape
     model: ReducedModel
     damping: Damping
     frequencies: np.ndarray
     provenance: Mapping[str, str] = field(default_factory=dict)
     modes: int = 6
+
+    @classmethod
+    def of(
+        cls,
+        crumple: Shape,
+        options: DynamicsOptions | None = None,
+        provenance: Mapping[str, str] | None = None,
+    ) -> Contents:
+        """Shape, reduced model and band of a crumple.
+
+        Raises
+        ------
+        ValueError
+            If the reduced model is valid nowhere in the band.
+        SolveError
+            If a factorisation or the reduction fails.
+        """
+        options = options or DynamicsOptions()
+        model, grid = options.reduced(stress_free_structure(crumple)), options.grid
+        grid = grid[
+            ~(grid > model.valid_to_hz)
+        ]  # a model without an estimate is valid as it stands
+        if grid.size < 2:
+            raise ValueError(
+                f"the {model.method} model is wrong by about {model.error_estimate:.2g} already at "
+                f"{options.lowest_hz:g} Hz; set dynamics.reduction: rational_krylov, or raise "
+                "dynamics.tolerance."
+            )
+        return cls(crumple, model, options.damping, grid, provenance or {}, options.mode_shapes)
 
     @cached_property
     def dynamic_stiffness(self) -> np.ndarray:

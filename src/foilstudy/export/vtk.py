@@ -73,7 +73,7 @@ def _point_fields(contents: Contents, grid: np.ndarray) -> dict[str, np.ndarray]
 
 def _cell_fields(contents: Contents) -> dict[str, np.ndarray]:
     crumple = contents.crumple
-    sheet, points = crumple.sheet(crumple.reference), crumple.points
+    sheet, points = crumple.stressed, crumple.points
     areas, strains = sheet.section.areas, principal_strains(sheet, points)
     membrane, bending, stabilisation = element_energies(sheet, points) / areas
     return {

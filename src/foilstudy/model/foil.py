@@ -18,12 +18,15 @@ class Material:
         kg/m3.
     yield_stress : float
         Pa; only used to report which share of the surface a linear elastic model overloads.
+    name : str
+        For people; it decides nothing.
     """
 
     youngs_modulus: float
     poisson_ratio: float
     density: float
     yield_stress: float
+    name: str = ""
 
 
 @dataclass(frozen=True)
@@ -36,10 +39,22 @@ class Foil:
     thickness: float
     material: Material
 
+    def __str__(self) -> str:
+        return (
+            f"{1e6 * self.thickness:g} µm {self.material.name or 'foil'}, diameter "
+            f"{1e3 * self.diameter:g} mm, {1e3 * self.reference_height:g} mm in a gap of "
+            f"{1e3 * self.gap_height:g} mm"
+        )
+
     @property
     def overlength(self) -> float:
         """(h_ref - h_gap) / h_gap."""
         return (self.reference_height - self.gap_height) / self.gap_height
+
+    @property
+    def shortening(self) -> float:
+        """h_ref - h_gap, m."""
+        return self.reference_height - self.gap_height
 
 
 SMOOTH_LENGTH_MIN = 0.7
@@ -53,19 +68,25 @@ class Imperfection:
     Attributes
     ----------
     kind : str
-        ``gaussian`` (independent at every control point), ``smoothed`` (Gaussian correlation) or
-        ``buckling_modes`` (random superposition of classical axial buckling modes).
+        A name of `foilstudy.model.imperfections.IMPERFECTIONS`.
     amplitude : float
         Standard deviation of each coordinate of a control point (of the radial one for buckling
         modes), m. The surface averages over neighbours: half of it for ``gaussian``. That of
         ``smoothed`` is the surface's own, away from the rings.
     correlation_length : float
-        Standard deviation of the smoothing kernel of ``smoothed``, m.
-    stream : tuple of int
-        Key of an independent random stream.
+        Standard deviation of the smoothing kernel of ``smoothed``, m; zero for the others.
+    seed : int
+        Of the realisation.
     """
 
-    kind: str
-    amplitude: float
-    correlation_length: float
-    stream: tuple[int, ...]
+    kind: str = "gaussian"
+    amplitude: float = 10e-6
+    correlation_length: float = 0.0
+    seed: int = 0
+
+    def stream(self, foil: Foil) -> tuple[int, int, int]:
+        """Key of the random stream: of seed, thickness (nm) and height (um), and nothing else.
+
+        So a foil keeps its realisations when the sweep around it changes.
+        """
+        return self.seed, round(foil.thickness * 1e9), round(foil.reference_height * 1e6)

@@ -10,7 +10,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-__all__ = ["MATERIALS", "MaterialConstants"]
+from foilstudy.model.foil import Material
+
+__all__ = ["MATERIALS", "MaterialConstants", "material"]
 
 
 @dataclass(frozen=True)
@@ -39,6 +41,16 @@ class MaterialConstants:
     yield_stress_mpa: float
     description: str
     source: str
+
+    def material(self, name: str) -> Material:
+        """The same in SI units."""
+        return Material(
+            youngs_modulus=self.youngs_modulus_mpa * 1e6,
+            poisson_ratio=self.poisson_ratio,
+            density=self.density_kg_m3,
+            yield_stress=self.yield_stress_mpa * 1e6,
+            name=name,
+        )
 
 
 MATERIALS: dict[str, MaterialConstants] = {
@@ -96,3 +108,16 @@ MATERIALS: dict[str, MaterialConstants] = {
         "AISI Type 304 Stainless Steel data sheet, scribd.com/document/416534641",
     ),
 }
+
+
+def material(name: str) -> Material:
+    """A known material in SI units.
+
+    Raises
+    ------
+    ValueError
+        Naming the known ones.
+    """
+    if name not in MATERIALS:
+        raise ValueError(f"{name!r} is not a known material; use one of {', '.join(MATERIALS)}.")
+    return MATERIALS[name].material(name)

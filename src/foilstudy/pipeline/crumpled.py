@@ -1,58 +1,184 @@
-"""A crumpled shape as the later parts of a realisation read it back."""
+"""A crumpled foil in memory: its shape, how it was reached, and what is measured of it."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Self
 
 import numpy as np
 
-from foilstudy.model.foil import Foil
-from foilstudy.model.patch import Patch, refine
-from foilstudy.model.shell.elements import ELEMENTS
-from foilstudy.model.shell.elements.protocol import Element
+from foilstudy.base.outcome import USABLE
+from foilstudy.base.record import read_record
+from foilstudy.base.spec import dumped, loaded
+from foilstudy.measure.dynamics import DynamicsOptions
+from foilstudy.measure.stiffness import prestressed_stiffness
+from foilstudy.model.foil import Foil, Imperfection
+from foilstudy.model.patch import Patch
 from foilstudy.model.shell.shell import Shell
+from foilstudy.pipeline.method import Mesh, Method
+from foilstudy.pipeline.shape import Shape
+from foilstudy.pipeline.static import MeshLimit, mesh_limit_of, stress_free_stiffness
+from foilstudy.pipeline.structures import stress_free_structure
+from foilstudy.pipeline.vibration import Vibration, vibration_of
+from foilstudy.solve.paths import Arrival
+from foilstudy.solve.problem import Problem
 
 
 @dataclass(frozen=True)
-class Crumple:
-    """A crumpled shape, SI.
+class Recipe:
+    """What a crumple was made by, beside its foil.
 
     Attributes
     ----------
-    foil : Foil
-    patch : Patch
-    points, reference : ndarray, shape (3, rows, columns)
-        Control points of the crumpled and of the stress-free shape, m.
-    element : Element
+    mesh : Mesh
+    imperfection : Imperfection
+    method : Method
     """
 
-    foil: Foil
-    patch: Patch
-    points: np.ndarray
-    reference: np.ndarray
-    element: Element
+    mesh: Mesh
+    imperfection: Imperfection
+    method: Method
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Crumpled(Shape):
+    """A crumpled foil: a `Shape` that knows how it came about.
+
+    Attributes
+    ----------
+    recipe : Recipe or None
+        None for a shape from elsewhere.
+    arrival : Arrival or None
+        How the equilibrium was reached; None where it was not sought here.
+    """
+
+    recipe: Recipe | None = None
+    arrival: Arrival | None = None
+
+    def __repr__(self) -> str:
+        how = f", {self.arrival.status}" if self.arrival else ""
+        return f"{super().__repr__()[:-1]}{how}>"
+
+    @property
+    def status(self) -> str:
+        """One of `foilstudy.base.outcome.STATUSES`; ``converged`` for a shape from elsewhere."""
+        return self.arrival.status if self.arrival else "converged"
+
+    @property
+    def message(self) -> str:
+        """One sentence on the status."""
+        return self.arrival.message if self.arrival else ""
+
+    @property
+    def method(self) -> Method:
+        """That of the recipe, the default one for a shape from elsewhere."""
+        return self.recipe.method if self.recipe else Method()
+
+    def relieved(self, removal=None) -> Shell:
+        """The shell that the recipe calls stress-free in this shape."""
+        return super().relieved(removal or self.method.stress_removal)
+
+    def settled(self, method: Method | None = None) -> Self:
+        """The nearest stable equilibrium, for a shape that was refined or came from elsewhere."""
+        path = (method or self.method).path
+        arrival = path.settle(Problem(self.stressed), self.points)
+        return replace(self, points=arrival.points, arrival=arrival)
+
+    def stiffness(self) -> np.ndarray:
+        """Axial and radial stiffness, stress-free, other motions held, shape (2,), N/m.
+
+        Raises
+        ------
+        SolveError
+            If it is singular.
+        """
+        return stress_free_stiffness(self)
+
+    def mesh_limit(self, refinements: int = 2, coarsest: np.ndarray | None = None) -> MeshLimit:
+        """That stiffness at element size zero, see `foilstudy.pipeline.static.mesh_limit_of`."""
+        return mesh_limit_of(self, refinements, coarsest)
+
+    def prestressed_stiffness(self) -> np.ndarray:
+        """Axial and radial stiffness with the stress left in, other motions held, shape (2,), N/m.
+
+        Raises
+        ------
+        SolveError
+            If the tangent with held rings is singular.
+        """
+        return prestressed_stiffness(self.stressed, self.points)
+
+    def vibration(self, options: DynamicsOptions | None = None) -> Vibration:
+        """Dynamic stiffness, eigenfrequencies and mode shapes of the stress-free shape.
+
+        Raises
+        ------
+        SolveError
+            If a factorisation, the reduction or a mode search fails.
+        """
+        return vibration_of(stress_free_structure(self), options or DynamicsOptions())
+
+    def plot(self, ax=None):
+        """Shaded picture, coloured by radial displacement.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Of a new figure if left out.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+        """
+        from foilstudy.plot.single import draw_shape
+
+        return draw_shape(self.points, self.foil.diameter / 2, str(self.foil), ax)
 
     @classmethod
-    def recorded(cls, foil: Foil, values: dict, attributes: dict) -> Crumple:
-        """From a record of `crumple`."""
-        points = values["control_points"]
+    def recorded(cls, path: str | Path) -> Self:
+        """Read a crumple back from its record, a ``crumple.nc``.
+
+        Raises
+        ------
+        ValueError
+            If the file is no such record, or its realisation has left no shape.
+        """
+        values, attributes = read_record(Path(path))
+        if not {"foil", "mesh", "imperfection", "method"} <= attributes.keys():
+            raise ValueError(f"{path}: is not the record of a crumple; give a crumple.nc.")
+        if attributes.get("status") not in USABLE:
+            raise ValueError(
+                f"{path}: the realisation has left no shape ({attributes.get('status')}: "
+                f"{attributes.get('message')})."
+            )
+        return cls.of_record(values, attributes)
+
+    @classmethod
+    def of_record(cls, values: dict[str, np.ndarray], attributes: dict[str, str]) -> Self:
+        """From the values and attributes of a record that holds a shape."""
+        foil = loaded(Foil, attributes["foil"])
+        recipe = Recipe(*(loaded(kind, attributes[name]) for name, kind in _RECIPE.items()))
+        points, reference = values["control_points"], values["reference_control_points"]
         _, rows, columns = points.shape
         along = rows - 2
         sizes = np.pi * foil.diameter / columns, foil.reference_height / along
         patch = Patch(columns, along, *sizes)
-        reference = values["reference_control_points"]
-        return cls(foil, patch, points, reference, ELEMENTS[attributes["element"]]())
+        arrival = Arrival(
+            attributes["status"], attributes["message"], points,
+            float(values["equilibrium_residual"]), _count(values["negative_eigenvalues"]),
+            int(values["steps"]), int(values["newton_steps"]), int(values["hessians"]), None,
+        )  # fmt: skip
+        return cls(foil, patch, points, reference, recipe.mesh.element_at_work(), recipe, arrival)
 
-    def sheet(self, reference: np.ndarray) -> Shell:
-        """A sheet of this foil that is stress-free in the given shape."""
-        foil = self.foil
-        return Shell.elastic(self.patch, reference, foil.material, foil.thickness, self.element)
 
-    def refined(self) -> Crumple:
-        """The same shape with every element split in four."""
-        return replace(
-            self,
-            patch=self.patch.refined(),
-            points=refine(self.points),
-            reference=refine(self.reference),
-        )
+_RECIPE = {"mesh": Mesh, "imperfection": Imperfection, "method": Method}
+
+
+def described(foil: Foil, recipe: Recipe) -> dict[str, str]:
+    """What the record of a crumple says of itself; `Crumpled.recorded` needs nothing else."""
+    return {"foil": dumped(foil)} | {name: dumped(getattr(recipe, name)) for name in _RECIPE}
+
+
+def _count(number: float) -> int | None:
+    return None if np.isnan(number) else int(number)

@@ -9,10 +9,10 @@ from foilstudy.measure.stiffness import InterfaceSystem, Rings
 from foilstudy.measure.stiffness.rings import interface_rigid_modes
 from foilstudy.model.patch import RING_ROWS
 from foilstudy.model.shell.tangent import mass_matrix
-from foilstudy.pipeline.crumpled import Crumple
+from foilstudy.pipeline.shape import Shape
 
 
-def stress_free_structure(crumple: Crumple) -> Structure:
+def stress_free_structure(shape: Shape) -> Structure:
     """The crumpled shape without its stresses, as published.
 
     Raises
@@ -20,12 +20,12 @@ def stress_free_structure(crumple: Crumple) -> Structure:
     SolveError
         If the stiffness with held rings is singular.
     """
-    matrix = crumple.sheet(crumple.points).tangent()
-    stiffness = InterfaceSystem.split(matrix, Rings.of(crumple.patch, crumple.points))
-    return Structure.assembled(stiffness, mass(crumple), _rigid_motions(crumple))
+    matrix = shape.relieved().tangent()
+    stiffness = InterfaceSystem.split(matrix, Rings.of(shape.patch, shape.points))
+    return Structure.assembled(stiffness, mass(shape), _rigid_motions(shape))
 
 
-def prestressed_structure(crumple: Crumple) -> Structure:
+def prestressed_structure(shape: Shape) -> Structure:
     """The crumpled shape with its stresses: the consistent tangent at the equilibrium.
 
     Raises
@@ -33,21 +33,21 @@ def prestressed_structure(crumple: Crumple) -> Structure:
     SolveError
         If the tangent with held rings is singular.
     """
-    sheet, points = crumple.sheet(crumple.reference), crumple.points
-    rings = Rings.of(crumple.patch, points)
-    stiffness = InterfaceSystem.split(sheet.tangent(points), rings)
+    shell, points = shape.stressed, shape.points
+    rings = Rings.of(shape.patch, points)
+    stiffness = InterfaceSystem.split(shell.tangent(points), rings)
     force = np.empty_like(points)
-    sheet.force(points, force)
+    shell.force(points, force)
     for ring, rows in enumerate((slice(0, RING_ROWS), slice(-RING_ROWS, None))):
         turning = slice(6 * ring + 3, 6 * ring + 6)
         stiffness.interface[turning, turning] += _turning_stiffness(points[:, rows], force[:, rows])
-    translations = _rigid_motions(crumple)[:, :3]
-    return Structure.assembled(stiffness, mass(crumple), translations)
+    translations = _rigid_motions(shape)[:, :3]
+    return Structure.assembled(stiffness, mass(shape), translations)
 
 
-def _rigid_motions(crumple: Crumple) -> np.ndarray:
+def _rigid_motions(shape: Shape) -> np.ndarray:
     """Of both rings together, about the centre of the lower one, shape (12, 6)."""
-    heights = crumple.points[2]
+    heights = shape.points[2]
     return interface_rigid_modes(heights[-RING_ROWS:].mean() - heights[:RING_ROWS].mean())
 
 
@@ -62,9 +62,9 @@ def _turning_stiffness(points: np.ndarray, force: np.ndarray) -> np.ndarray:
     return 0.5 * (moment + moment.T) - np.trace(moment) * np.eye(3)
 
 
-def mass(crumple: Crumple) -> InterfaceSystem:
+def mass(shape: Shape) -> InterfaceSystem:
     """Mass of the crumpled foil; the areal density is that of the undeformed foil."""
-    foil, patch = crumple.foil, crumple.patch
-    areas = crumple.sheet(crumple.reference).section.areas
+    foil, patch = shape.foil, shape.patch
+    areas = shape.stressed.section.areas
     matrix = mass_matrix(patch, foil.material.density * foil.thickness * areas)
-    return InterfaceSystem.split(matrix, Rings.of(patch, crumple.points))
+    return InterfaceSystem.split(matrix, Rings.of(patch, shape.points))

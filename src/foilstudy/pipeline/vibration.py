@@ -1,4 +1,4 @@
-"""Dynamic stiffness, eigenfrequencies and mode shapes of one crumple, as its study asks."""
+"""Dynamic stiffness, eigenfrequencies and mode shapes of one structure."""
 
 from __future__ import annotations
 
@@ -6,98 +6,72 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foilstudy.base.record import Quantity
-from foilstudy.config import Dynamics
 from foilstudy.linalg import factorise, lowest_modes, modes_below
 from foilstudy.measure.dynamics import (
-    CraigBampton,
-    Damping,
-    Guyan,
-    HintzHerting,
-    ModalDamping,
-    RationalKrylov,
-    RayleighDamping,
+    DynamicsOptions,
     ReducedModel,
-    StructuralDamping,
     Structure,
-    Wanted,
     dynamic_stiffness,
     eigenfrequency_errors,
-    frequency_grid,
 )
-from foilstudy.measure.dynamics.reductions.by_need import with_enough_modes
 from foilstudy.model.patch import RING_ROWS, Patch, knot_points
 
-_MODAL = {"craig_bampton": CraigBampton, "hintz_herting": HintzHerting}
+
+@dataclass(frozen=True, eq=False)
+class Vibration:
+    """Dynamics of a structure in a band.
+
+    Attributes
+    ----------
+    frequencies : ndarray, shape (frequencies,)
+        Hz.
+    dynamic_stiffness : ndarray of complex, shape (3 definitions, 2 directions, frequencies)
+        N/m; NaN beyond where the reduced model is valid.
+    mode_count : ndarray, shape (frequencies,)
+        Eigenfrequencies with held rings below each frequency; NaN likewise.
+    eigenfrequencies : ndarray, shape (wanted,)
+        With held rings, Hz; NaN where there are fewer.
+    mode_shapes : ndarray, shape (interior unknowns, wanted)
+        Mass-normalised, m/sqrt(kg m2); fewer columns where there are fewer.
+    model : ReducedModel
+    """
+
+    frequencies: np.ndarray
+    dynamic_stiffness: np.ndarray
+    mode_count: np.ndarray
+    eigenfrequencies: np.ndarray
+    mode_shapes: np.ndarray
+    model: ReducedModel
+
+    def __repr__(self) -> str:
+        return (
+            f"<Vibration: {self.frequencies[0]:g} to {self.frequencies[-1]:g} Hz, first "
+            f"eigenfrequency {self.eigenfrequencies[0]:.4g} Hz, {self.model.size} coordinates, "
+            f"estimated error {self.model.error_estimate:.1e}>"
+        )
 
 
-def damping_of(options: Dynamics) -> Damping:
-    """Damping model of a configuration."""
-    ratio = options.damping_percent / 100
-    if options.damping == "structural":
-        return StructuralDamping(2 * ratio)
-    if options.damping == "rayleigh":
-        return RayleighDamping.between(ratio, *options.rayleigh_hz)
-    return ModalDamping(ratio)
-
-
-def reduced(options: Dynamics, structure: Structure) -> ReducedModel:
-    """Reduced model of a structure, with its error estimate for the shown band.
+def vibration_of(structure: Structure, options: DynamicsOptions) -> Vibration:
+    """Reduce a structure and evaluate it in its band.
 
     Raises
     ------
     SolveError
-        If a factorisation or a mode search fails.
+        If a factorisation, the reduction or a mode search fails.
     """
-    wanted = Wanted(
-        options.tolerance, options.shown_min_hz, options.shown_max_hz, damping_of(options)
-    )
-    if options.reduction == "rational_krylov":
-        return RationalKrylov(wanted).reduce(structure)
-    if options.reduction == "guyan":
-        return Guyan(wanted).reduce(structure)
-    kind = _MODAL[options.reduction]
-    if options.cutoff_hz is None:
-        return with_enough_modes(structure, kind, wanted)
-    return kind(options.cutoff_hz, wanted).reduce(structure)
-
-
-def dynamic_quantities(
-    options: Dynamics, structure: Structure, patch: Patch
-) -> dict[str, Quantity]:
-    """Everything that depends on the frequency; NaN beyond where the reduced model is valid."""
-    model = reduced(options, structure)
-    grid = frequency_grid(options.shown_min_hz, options.shown_max_hz, options.frequencies)
+    model, grid = options.reduced(structure), options.grid
     valid = grid <= model.valid_to_hz
     stiffness = np.full((3, 2, grid.size), np.nan + 0j)
     if valid.any():
-        stiffness[..., valid] = dynamic_stiffness(model, grid[valid], damping_of(options))
+        stiffness[..., valid] = dynamic_stiffness(model, grid[valid], options.damping)
     modes = _modes_of(options, model, structure)
     count = np.searchsorted(modes.all_hz, grid).astype(float)
     count[~valid] = np.nan
-    dims = ("definition", "direction", "frequency")
-    quantities = {
-        "frequency": Quantity(grid, "Hz", "frequency", ("frequency",)),
-        "dynamic_stiffness_re": Quantity(
-            stiffness.real, "N/m", "real part of the dynamic stiffness", dims
-        ),
-        "dynamic_stiffness_im": Quantity(
-            stiffness.imag, "N/m", "imaginary part of the dynamic stiffness", dims
-        ),
-        "reduced_coordinates": Quantity(
-            float(model.size), "1", "coordinates of the reduced model, the ring motions included"
-        ),
-        "reduction_error": Quantity(
-            model.error_estimate, "1", "estimated largest relative error of the reduction"
-        ),
-        "valid_to_frequency": Quantity(
-            model.valid_to_hz, "Hz", "frequency up to which that meets the tolerance"
-        ),
-        "mode_count": Quantity(
-            count, "1", "eigenfrequencies with clamped rings below a frequency", ("frequency",)
-        ),
-    }
-    return quantities | _mode_quantities(options, modes, patch)
+    eigenfrequencies = np.full(options.eigenfrequencies, np.nan)
+    known = modes.first_hz[: options.eigenfrequencies]
+    eigenfrequencies[: known.size] = known
+    shapes = modes.shapes[:, : options.mode_shapes]
+    return Vibration(grid, stiffness, count, eigenfrequencies, shapes, model)
 
 
 @dataclass(frozen=True)
@@ -109,7 +83,7 @@ class _Modes:
     shapes: np.ndarray
 
 
-def _modes_of(options: Dynamics, model: ReducedModel, structure: Structure) -> _Modes:
+def _modes_of(options: DynamicsOptions, model: ReducedModel, structure: Structure) -> _Modes:
     """From the reduced model; directly what it does not have or is not right about.
 
     The rings of a symmetric sheet do not move all its modes, as the inertia of the whole structure
@@ -118,7 +92,7 @@ def _modes_of(options: Dynamics, model: ReducedModel, structure: Structure) -> _
     kept = max(options.eigenfrequencies, options.mode_shapes)
     all_hz = model.clamped_eigenfrequencies()
     frequencies, shapes = model.clamped_modes(kept)
-    limit = (2 * np.pi * min(model.valid_to_hz, options.shown_max_hz)) ** 2
+    limit = (2 * np.pi * min(model.valid_to_hz, options.highest_hz)) ** 2
     k, m = structure.stiffness.interior, structure.mass.interior
     count = factorise((k - limit * m).tocsr()).negative_eigenvalues
     if count != (all_hz < np.sqrt(limit) / (2 * np.pi)).sum():
@@ -131,29 +105,6 @@ def _modes_of(options: Dynamics, model: ReducedModel, structure: Structure) -> _
             return _Modes(all_hz, frequencies, shapes)
     first = lowest_modes(k, m, structure.static.factor, kept)
     return _Modes(all_hz, np.sqrt(first.eigenvalues) / (2 * np.pi), first.shapes)
-
-
-def _mode_quantities(options: Dynamics, modes: _Modes, patch: Patch) -> dict[str, Quantity]:
-    eigenfrequencies = np.full(options.eigenfrequencies, np.nan)  # NaN where there are fewer
-    known = modes.first_hz[: options.eigenfrequencies]
-    eigenfrequencies[: known.size] = known
-    quantities = {
-        "eigenfrequency": Quantity(
-            eigenfrequencies, "Hz", "eigenfrequencies with clamped rings", ("mode",)
-        ),
-        "first_eigenfrequency": Quantity(
-            eigenfrequencies[0], "Hz", "first eigenfrequency with clamped rings"
-        ),
-    }
-    shapes = modes.shapes[:, : options.mode_shapes]
-    if shapes.shape[1]:
-        quantities["mode_shape"] = Quantity(
-            surface_modes(patch, shapes).astype(np.float32),
-            "m/sqrt(kg m2)",
-            "mass-normalised displacement of the surface at the knots, clamped rings",
-            ("shape_mode", "component", "node_row", "node_column"),
-        )
-    return quantities
 
 
 def surface_modes(patch: Patch, shapes: np.ndarray) -> np.ndarray:

@@ -43,7 +43,7 @@ def material(cube) -> Material | None:
     """Material of the foil in SI units; None where the configuration does not tell it in full."""
     from pydantic import ValidationError
 
-    from foilstudy.config.scene import material_of
+    from foilstudy.config.foils import material_of
     from foilstudy.config.sections import Material as Section
 
     section = configuration(cube).get("material")

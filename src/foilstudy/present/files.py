@@ -42,7 +42,7 @@ class StudyFiles:
     @cached_property
     def cube(self):
         """The cube, see `foilstudy.open_cube`."""
-        from foilstudy.study.sweep.cube import open_cube
+        from foilstudy.base.cube import open_cube
 
         return open_cube(self.cube_path)
 

@@ -1,8 +1,5 @@
 """The foil of the published case, of which the side studies are made."""
 
-from __future__ import annotations
+from foilstudy.model.materials import material
 
-from foilstudy.config.scene import material_of
-from foilstudy.model.materials import MATERIALS
-
-FEP = material_of(MATERIALS["FEP"])
+FEP = material("FEP")

@@ -7,6 +7,7 @@ from foilstudy.measure.dynamics.damping import (
     RayleighDamping,
     StructuralDamping,
 )
+from foilstudy.measure.dynamics.options import DynamicsOptions
 from foilstudy.measure.dynamics.reduction import ReducedModel, Reduction
 from foilstudy.measure.dynamics.reductions import CraigBampton, Guyan, HintzHerting, RationalKrylov
 from foilstudy.measure.dynamics.response import (
@@ -24,6 +25,7 @@ __all__ = [
     "CraigBampton",
     "DEFINITIONS",
     "Damping",
+    "DynamicsOptions",
     "Guyan",
     "HintzHerting",
     "ModalDamping",

@@ -35,7 +35,13 @@ class ModalDamping:
     That of the published study, with 0.05. Modes of negative eigenvalue are not damped.
     """
 
+    kind = "modal"
     ratio: float
+
+    @classmethod
+    def of_share(cls, share: float, between_hz: tuple[float, float] | None = None) -> ModalDamping:
+        """From a share of the critical damping."""
+        return cls(share)
 
     def modal(self, eigenvalues: np.ndarray, omega: np.ndarray) -> np.ndarray:
         """See `Damping`."""
@@ -50,7 +56,15 @@ class StructuralDamping:
     energy.
     """
 
+    kind = "structural"
     loss_factor: float
+
+    @classmethod
+    def of_share(
+        cls, share: float, between_hz: tuple[float, float] | None = None
+    ) -> StructuralDamping:
+        """With the loss factor that dissipates at resonance what a share of the critical does."""
+        return cls(2 * share)
 
     def modal(self, eigenvalues: np.ndarray, omega: np.ndarray) -> np.ndarray:
         """See `Damping`."""
@@ -69,8 +83,24 @@ class RayleighDamping:
         beta, s.
     """
 
+    kind = "rayleigh"
     mass_coefficient: float
     stiffness_coefficient: float
+
+    @classmethod
+    def of_share(
+        cls, share: float, between_hz: tuple[float, float] | None = None
+    ) -> RayleighDamping:
+        """With a share of the critical damping at the two frequencies.
+
+        Raises
+        ------
+        ValueError
+            Without them.
+        """
+        if between_hz is None:
+            raise ValueError("Rayleigh damping needs the two frequencies at which it is known")
+        return cls.between(share, *between_hz)
 
     @classmethod
     def between(cls, ratio: float, lower_hz: float, upper_hz: float) -> RayleighDamping:

@@ -96,7 +96,11 @@ class ReducedModel:
 
 
 class Reduction(Protocol):
-    """A way to reduce a structure onto few coordinates that include the ring motions."""
+    """A way to reduce a structure onto few coordinates that include the ring motions.
+
+    Its class has a method ``for_band(wanted, cutoff_hz=None)``, which makes one for a tolerance and
+    a band; the cut-off belongs to reductions that keep the modes below one.
+    """
 
     def reduce(self, structure: Structure) -> ReducedModel:
         """Reduced model of the structure."""

@@ -39,6 +39,37 @@ class Load(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
+class Loading:
+    """A multiple of a load as a term of a problem: its potential is minus the work.
+
+    Attributes
+    ----------
+    load : Load
+    factor : float
+    """
+
+    load: Load
+    factor: float = 1.0
+    energy_names = ("load",)
+
+    def start(self) -> None:
+        """A conservative load has no memory."""
+
+    def evolved(self, points: np.ndarray, state: None) -> None:
+        """A conservative load has no memory."""
+
+    def force(self, points: np.ndarray, out: np.ndarray, state: None = None) -> np.ndarray:
+        """See `foilstudy.solve.problem.Term`."""
+        work, force = self.load.work_and_force(points)
+        np.multiply(force, -self.factor, out=out)
+        return np.array([-self.factor * work])
+
+    def tangent(self, points: np.ndarray, state: None = None) -> sparse.csr_matrix:
+        """See `foilstudy.solve.problem.Term`."""
+        return -self.factor * self.load.stiffness(points)
+
+
+@dataclass(frozen=True, eq=False)
 class DeadLoad:
     """Forces on the control points that keep their size and direction.
 

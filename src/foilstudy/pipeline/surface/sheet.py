@@ -10,7 +10,7 @@ import numpy as np
 from foilstudy.model.foil import Foil, Material
 from foilstudy.model.patch import cylinder_control_points
 from foilstudy.model.shell.elements.corner import Corner
-from foilstudy.pipeline.crumpled import Crumple
+from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.surface.checks import (
     DEFAULT_LIMITS,
     Limits,
@@ -31,7 +31,7 @@ def sheet_from_grid(
     thickness: float,
     material: Material,
     limits: Limits = DEFAULT_LIMITS,
-) -> Crumple:
+) -> Crumpled:
     """A crumpled shape from elsewhere as what the package measures.
 
     The first and the last row become the rigid rings, which hold the position and the slope of
@@ -51,7 +51,7 @@ def sheet_from_grid(
 
     Returns
     -------
-    Crumple
+    Crumpled
         Standing on z = 0, its axis z.
 
     Raises
@@ -78,7 +78,7 @@ def sheet_from_grid(
         material=material,
     )
     reference = cylinder_control_points(patch, foil.diameter)
-    return Crumple(foil, patch, control, reference, Corner())
+    return Crumpled(foil, patch, control, reference, Corner())
 
 
 def _grid_of(source: str | Path | np.ndarray | SurfaceGrid) -> SurfaceGrid:

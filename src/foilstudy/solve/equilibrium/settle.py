@@ -15,20 +15,23 @@ import numpy as np
 import scipy.sparse as sparse
 
 from foilstudy.model.patch import RING_ROWS
-from foilstudy.model.shell.shell import Shell
-from foilstudy.solve.equilibrium.newton import NewtonOptions, NewtonResult, minimise
-from foilstudy.solve.relaxation import Ramp, Scheme, StoppingRule, relax
+from foilstudy.solve.choices import SEARCHES
+from foilstudy.solve.equilibrium.newton import NewtonOptions, NewtonResult
+from foilstudy.solve.problem import Problem
+from foilstudy.solve.relaxation import Motion, Ramp, StoppingRule, relax
 
 _NO_MOTION = Ramp(0.0, 0)
 _FREE = slice(RING_ROWS, -RING_ROWS)
 
 
 class HeldSheet:
-    """Strain energy of a sheet whose rings stand still, a potential for `minimise`.
+    """Potential energy of a sheet whose rings stand still, for `minimise`.
+
+    The state of terms with memory stays the one that was last committed.
 
     Parameters
     ----------
-    sheet : Shell
+    problem : Problem
     points : ndarray, shape (3, rows, columns)
         Control points, m; those of the rings are kept.
 
@@ -38,8 +41,8 @@ class HeldSheet:
         Norm of the force on the rings at the last evaluation, N.
     """
 
-    def __init__(self, sheet: Shell, points: np.ndarray):
-        self._sheet, self._points = sheet, points.copy()
+    def __init__(self, problem: Problem, points: np.ndarray):
+        self._problem, self._points = problem, points.copy()
         self._force = np.empty_like(points)
         self._at: np.ndarray | None = None
         self.ring_force = np.nan
@@ -56,16 +59,16 @@ class HeldSheet:
         return points
 
     def value_and_gradient(self, q: np.ndarray) -> tuple[float, np.ndarray]:
-        """Strain energy (J) and force on the free control points (N)."""
-        energies = self._sheet.force(self.points(q), self._force)
+        """Potential energy (J) and force on the free control points (N)."""
+        energies = self._problem.force(self.points(q), self._force)
         rings = self._force[:, :RING_ROWS], self._force[:, -RING_ROWS:]
         self.ring_force, self._at = float(np.linalg.norm(np.stack(rings))), q
         return float(energies.sum()), self.unknowns(self._force)
 
     def hessian(self, q: np.ndarray) -> sparse.csr_matrix:
         """Tangent stiffness of the free control points, N/m."""
-        owned = RING_ROWS * 3 * self._sheet.patch.columns
-        matrix = self._sheet.tangent(self.points(q))
+        owned = RING_ROWS * 3 * self._problem.patch.columns
+        matrix = self._problem.tangent(self.points(q))
         return matrix[owned:-owned, owned:-owned].tocsr()
 
     def ring_force_at(self, q: np.ndarray) -> float:
@@ -94,6 +97,8 @@ class SettleOptions:
     hessians_last : int
         Tangents formed once no steps of relaxation are left; up to 20 were needed.
     rounds_max : int
+    search : str
+        How minima are sought: a name of `foilstudy.solve.choices.SEARCHES`.
     """
 
     residual_tolerance: float = 1e-8
@@ -102,6 +107,7 @@ class SettleOptions:
     hessians_per_round: int = 3
     hessians_last: int = 60
     rounds_max: int = 10
+    search: str = "quasi_newton"
 
 
 @dataclass(frozen=True)
@@ -134,15 +140,15 @@ class SettleResult:
 
 
 def settle(
-    sheet: Shell, scheme: Scheme, points: np.ndarray, options: SettleOptions | None = None
+    problem: Problem, motion: Motion, points: np.ndarray, options: SettleOptions | None = None
 ) -> SettleResult:
     """Stable equilibrium with the rings held, from any shape.
 
     Parameters
     ----------
-    sheet : Shell
-    scheme : Scheme
-        Of the relaxation; its damping after the ramp is used.
+    problem : Problem
+    motion : Motion
+        Of the relaxation; its damper after the ramp is used.
     points : ndarray, shape (3, rows, columns)
         Control points to start from, m.
     options : SettleOptions, optional
@@ -157,7 +163,7 @@ def settle(
     for each in range(options.rounds_max):
         residual = max(options.switch_residual / 3**each, options.residual_tolerance)
         left = options.relaxation_steps_max - steps
-        relaxed = relax(sheet, scheme, _NO_MOTION, _until(residual, left), points)
+        relaxed = relax(problem, motion, _NO_MOTION, _until(residual, left), points)
         points, steps = relaxed.points, steps + relaxed.steps
         if relaxed.status == "diverged":
             return SettleResult(
@@ -166,34 +172,58 @@ def settle(
             )  # fmt: skip
         last = relaxed.status == "not_converged"
         most = options.hessians_last if last else options.hessians_per_round
-        points, polished = _polish(sheet, points, options.residual_tolerance, most)
+        points, polished = _polish(problem, points, options, most)
         hessians, newton_steps = hessians + polished.iterations, newton_steps + polished.steps
+        if polished.status == "converged" and not _comes_to_rest(problem, points, options):
+            continue
         if polished.status == "converged" or last:
             break
     status = "converged" if polished.status == "converged" else "not_converged"
+    residual = polished.residual
+    if status == "converged" and problem.has_memory:
+        residual = _residual(problem, points)
+        if residual > options.residual_tolerance:
+            status = "not_converged"
     return SettleResult(
-        status, polished.message, points, polished.residual, polished.negative_eigenvalues,
+        status, polished.message, points, residual, polished.negative_eigenvalues,
         steps, hessians, newton_steps,
     )  # fmt: skip
 
 
+def _comes_to_rest(problem: Problem, points: np.ndarray, options: SettleOptions) -> bool:
+    """Commit a shape that is in equilibrium at the last state; whether it is so at the new one.
+
+    The minimisation holds the state of terms with memory. Without memory there is nothing to do.
+    """
+    if not problem.has_memory:
+        return True
+    problem.commit(points)
+    return _residual(problem, points) <= options.residual_tolerance
+
+
+def _residual(problem: Problem, points: np.ndarray) -> float:
+    held = HeldSheet(problem, points)
+    _, gradient = held.value_and_gradient(held.unknowns(points))
+    return float(np.linalg.norm(gradient)) / held.ring_force
+
+
 def _polish(
-    sheet: Shell, points: np.ndarray, residual_tolerance: float, hessians_max: int
+    problem: Problem, points: np.ndarray, options: SettleOptions, hessians_max: int
 ) -> tuple[np.ndarray, NewtonResult]:
     """Minimise the energy with the rings held; the new control points and the outcome."""
-    held = HeldSheet(sheet, points)
+    held = HeldSheet(problem, points)
     newton = NewtonOptions(
-        residual_tolerance=residual_tolerance,
+        residual_tolerance=options.residual_tolerance,
         scale=held.ring_force_at,
         iterations_max=hessians_max,
     )
-    result = minimise(held, held.unknowns(points), newton)
+    result = SEARCHES[options.search](held, held.unknowns(points), newton)
     return held.points(result.q), result
 
 
 def stopped_at(
-    sheet: Shell,
-    scheme: Scheme,
+    problem: Problem,
+    motion: Motion,
     points: np.ndarray,
     residuals: Iterable[float],
     relaxation_steps_max: int = 40_000,
@@ -216,7 +246,7 @@ def stopped_at(
     """
     for residual in residuals:
         rule = _until(residual, relaxation_steps_max)
-        result = relax(sheet, scheme, _NO_MOTION, rule, points)
+        result = relax(problem, motion, _NO_MOTION, rule, points)
         if result.status != "converged":
             return
         points = result.points
@@ -225,4 +255,4 @@ def stopped_at(
 
 def _until(residual: float, steps_max: int) -> StoppingRule:
     """Stop at a residual, however the sheet may still move."""
-    return StoppingRule(residual, np.inf, steps_max)
+    return StoppingRule(residual, steps_max)

@@ -1,0 +1,58 @@
+"""Ways from the uncrumpled cylinder to a crumpled equilibrium: one file each, protocol `Path`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from foilstudy.solve.problem import Problem
+from foilstudy.solve.relaxation.loop import History
+
+__all__ = ["Arrival", "Path"]
+
+
+@dataclass(frozen=True, eq=False)
+class Arrival:
+    """Where a path has led, and whether that is a stable equilibrium.
+
+    Attributes
+    ----------
+    status : str
+        One of `foilstudy.base.outcome.STATUSES`.
+    message : str
+        One sentence on the status.
+    points : ndarray, shape (3, rows, columns)
+        Control points, m.
+    residual : float
+        Norm of the force on the free control points relative to that on the rings.
+    negative_eigenvalues : int or None
+        Of the tangent with the rings held; None where it was not counted.
+    steps, newton_steps, hessians : int
+        Pseudo-time steps with those of the ramp, quasi-Newton steps, tangents formed.
+    history : History or None
+        Along the way; None where there was no motion.
+    """
+
+    status: str
+    message: str
+    points: np.ndarray
+    residual: float
+    negative_eigenvalues: int | None
+    steps: int
+    newton_steps: int
+    hessians: int
+    history: History | None
+
+
+class Path(Protocol):
+    """A strategy to crumple; a frozen specification."""
+
+    def follow(self, problem: Problem, shortening: float) -> Arrival:
+        """From the stress-free shape to rings that are nearer by `shortening`, m."""
+        ...
+
+    def settle(self, problem: Problem, points: np.ndarray) -> Arrival:
+        """From any shape to an equilibrium, the rings held."""
+        ...

@@ -8,9 +8,8 @@ import numpy as np
 from numba import njit
 
 from foilstudy.model.patch import RING_ROWS
-from foilstudy.model.shell.shell import Shell
-from foilstudy.solve.relaxation.damping import Damping
-from foilstudy.solve.relaxation.mass_scaling import MassScaling
+from foilstudy.solve.problem import Problem
+from foilstudy.solve.relaxation.scheme import Motion
 
 
 @dataclass(frozen=True)
@@ -30,15 +29,6 @@ class Ramp:
 
 
 @dataclass(frozen=True)
-class Scheme:
-    """The fictitious dynamics: a mass, and a damping for each of the two phases."""
-
-    mass: MassScaling
-    ramp_damping: Damping
-    relaxation_damping: Damping
-
-
-@dataclass(frozen=True)
 class StoppingRule:
     """When a relaxation counts as converged, and when to give up.
 
@@ -46,8 +36,6 @@ class StoppingRule:
     ----------
     residual_tolerance : float
         Largest norm of the force on the free control points relative to that on the rings.
-    kinetic_energy_tolerance : float
-        Largest kinetic energy (of the fictitious mass) relative to the strain energy.
     relaxation_steps_max : int
         Steps allowed after the ramp.
     check_interval : int
@@ -55,7 +43,6 @@ class StoppingRule:
     """
 
     residual_tolerance: float
-    kinetic_energy_tolerance: float
     relaxation_steps_max: int
     check_interval: int = 20
 
@@ -65,15 +52,13 @@ class History:
     """Quantities along the steps, one array entry per check.
 
     Height in m, reaction force on the top ring in N (positive when the sheet pushes it up),
-    energies in J, residual relative.
+    energies in J, by the name the problem gives them, residual relative.
     """
 
     step: np.ndarray
     height: np.ndarray
     reaction_force: np.ndarray
-    membrane_energy: np.ndarray
-    bending_energy: np.ndarray
-    stabilisation_energy: np.ndarray
+    energies: dict[str, np.ndarray]
     kinetic_energy: np.ndarray
     residual: np.ndarray
 
@@ -159,8 +144,8 @@ def _motion_products(velocity, momentum, force, previous, free_start, free_stop)
 
 
 def relax(
-    sheet: Shell,
-    scheme: Scheme,
+    problem: Problem,
+    motion: Motion,
     ramp: Ramp,
     rule: StoppingRule,
     start: np.ndarray | None = None,
@@ -168,12 +153,13 @@ def relax(
     """Push the top ring of a sheet down and relax the sheet to equilibrium.
 
     Each increment of the ring's motion is spread over the height, so that the sheet does not lag
-    behind at the moving ring.
+    behind at the moving ring. Terms with memory take note of the shape after every step.
 
     Parameters
     ----------
-    sheet : Shell
-    scheme : Scheme
+    problem : Problem
+    motion : Motion
+        From `Scheme.start`; its dampers go on from where they are.
     ramp : Ramp
     rule : StoppingRule
     start : ndarray, shape (3, rows, columns), optional
@@ -184,20 +170,20 @@ def relax(
     RelaxationResult
         Never raises for a sheet that fails to converge: the status says so.
     """
-    points = (sheet.reference if start is None else start).copy()
+    points = (problem.reference if start is None else start).copy()
     rows = points.shape[1]
     free = (RING_ROWS, rows - RING_ROWS)
-    share = np.clip(points[2].mean(axis=1) / (sheet.patch.size_along * (rows - 2)), 0.0, 1.0)
+    share = np.clip(points[2].mean(axis=1) / (problem.patch.size_along * (rows - 2)), 0.0, 1.0)
     share[:RING_ROWS], share[-RING_ROWS:] = 0.0, 1.0
     force = np.empty_like(points)
     momentum = np.zeros((3, free[1] - free[0], points.shape[2]))
     previous = np.zeros_like(momentum)
     velocity = np.zeros_like(momentum)
-    recorder = _Recorder(ramp)
+    recorder = _Recorder(ramp, problem.energy_names)
     status, step = "not_converged", 0
     last_step = ramp.steps + rule.relaxation_steps_max
     while True:
-        energies = sheet.force(points, force)
+        energies = problem.force(points, force)
         work_rate, momentum_norm = _motion_products(velocity, momentum, force, previous, *free)
         if step % rule.check_interval == 0 or step == last_step:
             entry = recorder.record(step, force, energies, 0.5 * momentum_norm)
@@ -211,22 +197,15 @@ def relax(
             if entry.kinetic_energy_ratio > _UNSTABLE:
                 status = "diverged"
             break
-        damping = scheme.ramp_damping if step < ramp.steps else scheme.relaxation_damping
-        _advance(momentum, force, previous, *free, damping.coefficient(work_rate, momentum_norm))
-        velocity = scheme.mass.velocity(momentum)
+        damper = motion.ramp_damper if step < ramp.steps else motion.relaxation_damper
+        _advance(momentum, force, previous, *free, damper.coefficient(work_rate, momentum_norm))
+        velocity = motion.mass.velocity(momentum)
         step += 1
         lowering = ramp.shortening_at(step) - ramp.shortening_at(step - 1)
         _move(points, velocity, share, lowering, *free)
+        if problem.has_memory:
+            problem.commit(points)
     return recorder.result(status, step, points, rule)
-
-
-def _kinetic_words(last: _Entry, rule: StoppingRule) -> str:
-    if np.isinf(rule.kinetic_energy_tolerance):
-        return ""
-    return (
-        f" and kinetic energy ratio {last.kinetic_energy_ratio:.1e} (wanted "
-        f"{rule.kinetic_energy_tolerance:.1e})"
-    )
 
 
 @dataclass(frozen=True)
@@ -240,15 +219,13 @@ class _Entry:
         return self.kinetic_energy / self.strain_energy if self.strain_energy != 0 else 0.0
 
     def settled(self, rule: StoppingRule) -> bool:
-        return (
-            self.residual <= rule.residual_tolerance
-            and self.kinetic_energy_ratio <= rule.kinetic_energy_tolerance
-        )
+        return self.residual <= rule.residual_tolerance
 
 
 class _Recorder:
-    def __init__(self, ramp: Ramp):
+    def __init__(self, ramp: Ramp, energy_names: tuple[str, ...]):
         self._ramp = ramp
+        self._energy_names = energy_names
         self._rows: list[tuple] = []
         self._last: _Entry | None = None
 
@@ -271,12 +248,12 @@ class _Recorder:
 
     def result(self, status, step, points, rule) -> RelaxationResult:
         last = self._last
-        table = np.array(self._rows).T
+        steps, heights, reactions, *energies, kinetic, residuals = np.array(self._rows).T
         messages = {
             "converged": f"relative residual {last.residual:.1e} after {step} steps",
             "not_converged": (
-                f"relative residual {last.residual:.1e} (wanted {rule.residual_tolerance:.1e})"
-                f"{_kinetic_words(last, rule)} when the step limit of {step} was reached"
+                f"relative residual {last.residual:.1e} (wanted {rule.residual_tolerance:.1e}) "
+                f"when the step limit of {step} was reached"
             ),
             "diverged": (
                 f"the stepping was unstable: {self._energy_words()} at step {step}; use a smaller "
@@ -284,7 +261,14 @@ class _Recorder:
             ),
         }
         height = points[2, -RING_ROWS:].mean() + self._ramp.shortening_at(step)
-        history = History(table[0].astype(np.int64), height + table[1], *table[2:])
+        history = History(
+            steps.astype(np.int64),
+            height + heights,
+            reactions,
+            dict(zip(self._energy_names, energies, strict=True)),
+            kinetic,
+            residuals,
+        )
         return RelaxationResult(
             status,
             messages[status],

@@ -4,38 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 
 import numpy as np
 
+from foilstudy.base.costs import Cost
 from foilstudy.base.costs import measured as measured_cost
-from foilstudy.base.costs import peak_memory_mb
-from foilstudy.config.scene import material_of
 from foilstudy.linalg import SolveError
-from foilstudy.measure.stiffness import (
-    InterfaceSystem,
-    Rings,
-    condense,
-    fixed_stiffness,
-    mesh_limit,
-    prestressed_stiffness,
-)
 from foilstudy.model.foil import Foil, Imperfection
-from foilstudy.model.imperfection import imperfect_cylinder
-from foilstudy.model.materials import MATERIALS
-from foilstudy.model.patch import Patch, cylinder_control_points
-from foilstudy.model.shell.elements import ELEMENTS
 from foilstudy.model.shell.elements.corner import Corner
-from foilstudy.model.shell.elements.sampled import STAGGERED
-from foilstudy.model.shell.shell import Shell
-from foilstudy.pipeline.crumpled import Crumple
-from foilstudy.pipeline.scheme import crumpling_scheme
-from foilstudy.solve.equilibrium.settle import SettleOptions, settle
-from foilstudy.solve.relaxation import Ramp, StoppingRule, relax
+from foilstudy.pipeline.crumple import crumple, uncrumpled
+from foilstudy.pipeline.crumpled import Crumpled
+from foilstudy.pipeline.method import Mesh, Method
+from foilstudy.solve.equilibrium.settle import SettleOptions
+from foilstudy.solve.paths.relaxation import RelaxationPath
 from foilstudy.study.convergence.plan import DIAMETER_MM, GAP_HEIGHT_MM, Case
+from foilstudy.study.foils import FEP
 
 RAMP_STEPS = 2000
 STEPS_MAX = 100_000
+METHOD = Method(RelaxationPath(RAMP_STEPS, settling=SettleOptions(relaxation_steps_max=STEPS_MAX)))
 _AMPLITUDE, _CORRELATION = 10e-6, 10e-3
 """Of the imperfection, m: smooth enough for the coarsest mesh, so that all meshes have the same."""
 _REFINED_SIZE_MIN = 1.2e-3
@@ -43,147 +30,114 @@ _REFINEMENTS_MAX = 2
 """How far a crumpled shape is refined for the mesh limit of its stiffness; size in m."""
 
 
-def foil_of(case: Case) -> Foil:
-    """The foil of a case: the published FEP."""
-    material = material_of(MATERIALS["FEP"])
-    return Foil(
+def recipe(case: Case) -> tuple[Foil, Mesh, Imperfection, Method]:
+    """What `crumple` needs for a case: the published foil, the same imperfection on every mesh."""
+    foil = Foil(
         DIAMETER_MM * 1e-3, case.height_mm * 1e-3, GAP_HEIGHT_MM * 1e-3, case.thickness_um * 1e-6,
-        material,
+        FEP,
     )  # fmt: skip
+    imperfection = Imperfection("smoothed", _AMPLITUDE, _CORRELATION, case.seed)
+    return foil, Mesh(case.size_mm * 1e-3, case.element), imperfection, METHOD
 
 
-def imperfect(case: Case) -> Crumple:
-    """The uncrumpled foil of a case, its imperfection the same field on every mesh."""
-    foil = foil_of(case)
-    patch = Patch.for_cylinder(foil.diameter, foil.reference_height, case.size_mm * 1e-3)
-    stream = (case.seed, 1000 * case.thickness_um, 1000 * case.height_mm)
-    imperfection = Imperfection("smoothed", _AMPLITUDE, _CORRELATION, stream)
-    perfect = cylinder_control_points(patch, foil.diameter)
-    reference = imperfect_cylinder(patch, perfect, foil, imperfection)
-    return Crumple(foil, patch, reference, reference, ELEMENTS[case.element]())
+def imperfect(case: Case) -> Crumpled:
+    """The uncrumpled foil of a case."""
+    return uncrumpled(*recipe(case))
 
 
-def settled(case: Case) -> tuple[Crumple, dict]:
+def settled(case: Case) -> tuple[Crumpled, dict]:
     """Crumple a case to a stable equilibrium; the shape and how it was reached."""
-    crumple = imperfect(case)
-    foil, sheet = crumple.foil, crumple.sheet(crumple.reference)
-    scheme, options = crumpling_scheme(sheet), SettleOptions(relaxation_steps_max=STEPS_MAX)
-    ramp = Ramp(foil.reference_height - foil.gap_height, RAMP_STEPS)
     numbers: dict = {"ramp_steps": RAMP_STEPS}
-    with _timed(numbers, "relaxing"):
-        rule = StoppingRule(options.switch_residual, np.inf, STEPS_MAX)
-        relaxed = relax(sheet, scheme, ramp, rule)
-    numbers |= {"status": relaxed.status, "message": relaxed.message, "residual": relaxed.residual}
-    numbers |= {"steps": relaxed.steps - RAMP_STEPS, "negative_eigenvalues": None, "hessians": 0}
-    points = relaxed.points
-    if relaxed.status != "diverged":
-        points = _settle(sheet, scheme, points, options, numbers)
-    return replace(crumple, points=points), numbers
+    with _timed(numbers, "crumpling"):
+        crumpled = crumple(*recipe(case))
+    return crumpled, numbers | _reached(crumpled, RAMP_STEPS)
 
 
-def settled_on(crumple: Crumple) -> tuple[Crumple, dict]:
+def settled_on(crumpled: Crumpled) -> tuple[Crumpled, dict]:
     """Let a refined crumple settle on its mesh."""
-    sheet = crumple.sheet(crumple.reference)
-    numbers: dict = {"ramp_steps": 0, "steps": 0, "hessians": 0}
-    options = SettleOptions(relaxation_steps_max=STEPS_MAX)
-    points = _settle(sheet, crumpling_scheme(sheet), crumple.points, options, numbers)
-    return replace(crumple, points=points), numbers
+    numbers: dict = {"ramp_steps": 0}
+    with _timed(numbers, "crumpling"):
+        crumpled = crumpled.settled()
+    return crumpled, numbers | _reached(crumpled, 0)
 
 
-def _settle(
-    sheet: Shell, scheme, points: np.ndarray, options: SettleOptions, numbers: dict
-) -> np.ndarray:
-    with _timed(numbers, "settling"):
-        result = settle(sheet, scheme, points, options)
-    numbers |= {
-        "status": result.status,
-        "message": result.message,
-        "residual": result.residual,
-        "steps": numbers["steps"] + result.relaxation_steps,
-        "negative_eigenvalues": result.negative_eigenvalues,
-        "hessians": result.hessians,
+def _reached(crumpled: Crumpled, ramp_steps: int) -> dict:
+    arrival = crumpled.arrival
+    return {
+        "status": arrival.status,
+        "message": arrival.message,
+        "residual": arrival.residual,
+        "steps": arrival.steps - ramp_steps,
+        "negative_eigenvalues": arrival.negative_eigenvalues,
+        "hessians": arrival.hessians,
     }
-    return result.points
 
 
-def measured(crumple: Crumple) -> dict:
+def measured(crumpled: Crumpled) -> dict:
     """Energies (J) and stiffness (N/m; axial, radial) of a crumple."""
-    sheet = crumple.sheet(crumple.reference)
-    energies = sheet.energies(crumple.points)
+    energies, patch = crumpled.energies(), crumpled.patch
     numbers = {
-        "size_mm": 1e3 * float(np.sqrt(crumple.patch.size_around * crumple.patch.size_along)),
-        "elements": crumple.patch.elements_around * crumple.patch.elements_along,
+        "size_mm": 1e3 * float(np.sqrt(patch.size_around * patch.size_along)),
+        "elements": patch.elements_around * patch.elements_along,
         "membrane_energy": energies.membrane,
         "bending_energy": energies.bending,
         "stabilisation_energy": energies.stabilisation,
         "strain_energy": energies.total,
     }
-    with _timed(numbers, "static"):
-        plain = stress_free(crumple)
-    numbers["static_stiffness"] = plain.tolist()
-    numbers["peak_memory_mb"] = peak_memory_mb()
+    with _timed(numbers, "static") as cost:
+        plain = crumpled.stiffness()
+    numbers |= {"static_stiffness": plain.tolist(), "peak_memory_mb": cost.peak_memory_mb}
     with _timed(numbers, "refined"):
-        limit, error = _limit(crumple, plain)
-    numbers |= {"static_limit": limit.tolist(), "static_limit_error": error.tolist()}
-    return numbers | {"prestressed_stiffness": _prestressed(sheet, crumple.points).tolist()}
+        limit = crumpled.mesh_limit(_refinements(crumpled), plain)
+    numbers |= {
+        "static_limit": limit.stiffness.tolist(),
+        "static_limit_error": limit.error.tolist(),
+    }
+    return numbers | {"prestressed_stiffness": prestressed(crumpled).tolist()}
 
 
-def stress_free(crumple: Crumple) -> np.ndarray:
-    """Axial and radial stiffness with the crumpled shape free of stress, N/m."""
-    rings = Rings.of(crumple.patch, crumple.points)
-    system = InterfaceSystem.split(crumple.sheet(crumple.points).tangent(), rings)
-    return fixed_stiffness(condense(system).stiffness)
-
-
-def _prestressed(sheet: Shell, points: np.ndarray) -> np.ndarray:
+def prestressed(crumpled: Crumpled) -> np.ndarray:
+    """Axial and radial stiffness with the stress left in, N/m; NaN where it is singular."""
     try:
-        return prestressed_stiffness(sheet, points)
+        return crumpled.prestressed_stiffness()
     except SolveError as error:
         print(f"no pre-stressed stiffness: {error}")
         return np.full(2, np.nan)
 
 
-def _limit(crumple: Crumple, plain: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Stiffness of the same shape at element size zero and its error.
+def _refinements(crumpled: Crumpled) -> int:
+    """How often a shape is refined for its mesh limit.
 
-    NaN on the finest mesh, and for other elements than the default one: they stand here for
+    Not at all on the finest mesh, nor for other elements than the default one: they stand here for
     published results, which have no limit.
     """
-    levels, fine, staggered = [plain], crumple, np.full(2, np.nan)
-    if crumple.element != Corner():
-        return staggered, staggered
-    size = crumple.patch.size_along
-    while size / 2 >= _REFINED_SIZE_MIN and len(levels) <= _REFINEMENTS_MAX:
-        fine, size = fine.refined(), size / 2
-        levels.append(stress_free(fine))
-        if len(levels) == 2:
-            staggered = stress_free(replace(fine, element=STAGGERED))
-    if len(levels) == 1:
-        return staggered, staggered
-    return mesh_limit(levels, staggered)
+    if crumpled.element != Corner():
+        return 0
+    halvings = int(np.log2(crumpled.patch.size_along / _REFINED_SIZE_MIN))
+    return max(0, min(halvings, _REFINEMENTS_MAX))
 
 
 def run(case: Case) -> dict:
     """Crumple and measure a case; every number of it."""
-    crumple, numbers = settled(case)
+    crumpled, numbers = settled(case)
     if numbers["status"] != "diverged":
-        numbers |= measured(crumple)
+        numbers |= measured(crumpled)
     return numbers
 
 
 def run_levels(case: Case) -> list[dict]:
     """Crumple a case, then refine and relax it again to the finest size."""
-    crumple, numbers = settled(case)
-    levels = [numbers | measured(crumple)]
-    while numbers["status"] == "converged" and crumple.patch.size_along / 2 >= _REFINED_SIZE_MIN:
-        crumple, numbers = settled_on(crumple.refined())
-        levels.append(numbers | measured(crumple))
+    crumpled, numbers = settled(case)
+    levels = [numbers | measured(crumpled)]
+    while numbers["status"] == "converged" and crumpled.patch.size_along / 2 >= _REFINED_SIZE_MIN:
+        crumpled, numbers = settled_on(crumpled.refined())
+        levels.append(numbers | measured(crumpled))
     return [{"level": k} | level for k, level in enumerate(levels)]
 
 
 @contextmanager
-def _timed(numbers: dict, what: str) -> Iterator[None]:
+def _timed(numbers: dict, what: str) -> Iterator[Cost]:
     """Record the seconds on the clock and those of the processor, which a full machine spares."""
     with measured_cost() as cost:
-        yield
+        yield cost
     numbers[f"seconds_{what}"], numbers[f"cpu_seconds_{what}"] = cost.seconds, cost.cpu_seconds

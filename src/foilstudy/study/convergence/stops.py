@@ -2,43 +2,38 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
-from foilstudy.linalg import SolveError, factorise
-from foilstudy.measure.stiffness import prestressed_stiffness
-from foilstudy.model.shell.shell import Shell
-from foilstudy.pipeline.crumpled import Crumple
-from foilstudy.pipeline.scheme import crumpling_scheme
+from foilstudy.linalg import factorise
+from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.solve.equilibrium.settle import HeldSheet, stopped_at
-from foilstudy.solve.relaxation import Ramp, StoppingRule, relax
-from foilstudy.study.convergence.crumpling import RAMP_STEPS, STEPS_MAX, imperfect, stress_free
+from foilstudy.solve.problem import Problem
+from foilstudy.solve.relaxation import Ramp, Scheme, StoppingRule, relax
+from foilstudy.study.convergence.crumpling import RAMP_STEPS, STEPS_MAX, imperfect, prestressed
 from foilstudy.study.convergence.plan import STOPS, Case
 
 
 def run_stops(case: Case) -> list[dict]:
     """Crumple a case and measure it at every residual of the plan that it reaches."""
-    crumple = imperfect(case)
-    foil, sheet = crumple.foil, crumple.sheet(crumple.reference)
-    scheme = crumpling_scheme(sheet)
-    ramp = Ramp(foil.reference_height - foil.gap_height, RAMP_STEPS)
-    points = relax(sheet, scheme, ramp, StoppingRule(np.inf, np.inf, 0)).points
+    start = imperfect(case)
+    problem = Problem(start.stressed)
+    motion = Scheme().start(problem)
+    ramp = Ramp(start.foil.shortening, RAMP_STEPS)
+    points = relax(problem, motion, ramp, StoppingRule(np.inf, 0)).points
     return [
-        {"residual": residual} | _measured(crumple, sheet, shape)
-        for residual, shape in stopped_at(sheet, scheme, points, STOPS, STEPS_MAX)
+        {"residual": residual} | _measured(replace(start, points=shape), problem)
+        for residual, shape in stopped_at(problem, motion, points, STOPS, STEPS_MAX)
     ]
 
 
-def _measured(crumple: Crumple, sheet: Shell, points: np.ndarray) -> dict:
-    held = HeldSheet(sheet, points)
-    tangent = held.hessian(held.unknowns(points))
-    try:
-        prestressed = prestressed_stiffness(sheet, points)
-    except SolveError:
-        prestressed = np.full(2, np.nan)
-    shape = Crumple(crumple.foil, crumple.patch, points, crumple.reference, crumple.element)
+def _measured(crumpled: Crumpled, problem: Problem) -> dict:
+    held = HeldSheet(problem, crumpled.points)
+    tangent = held.hessian(held.unknowns(crumpled.points))
     return {
-        "strain_energy": sheet.energies(points).total,
+        "strain_energy": crumpled.energies().total,
         "negative_eigenvalues": factorise(tangent).negative_eigenvalues,
-        "static_stiffness": stress_free(shape).tolist(),
-        "prestressed_stiffness": prestressed.tolist(),
+        "static_stiffness": crumpled.stiffness().tolist(),
+        "prestressed_stiffness": prestressed(crumpled).tolist(),
     }

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from foilstudy.measure.dynamics import Structure
-from foilstudy.pipeline.crumpled import Crumple
+from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.structures import prestressed_structure, stress_free_structure
 from foilstudy.study.convergence.crumpling import imperfect, settled
 from foilstudy.study.convergence.plan import Case
@@ -28,7 +28,7 @@ def crumple_shape(shape: Shape) -> dict:
     return numbers | {"points": crumple.points}
 
 
-def crumple_of(model: Model, shapes: Mapping[Shape, Record]) -> Crumple:
+def crumple_of(model: Model, shapes: Mapping[Shape, Record]) -> Crumpled:
     """The crumple of a model on the mesh of that model."""
     points = shapes[model.shape].result["points"]
     crumple = replace(imperfect(_case(model.shape)), points=points)
@@ -37,7 +37,7 @@ def crumple_of(model: Model, shapes: Mapping[Shape, Record]) -> Crumple:
     return crumple
 
 
-def structure_of(model: Model, crumple: Crumple) -> Structure:
+def structure_of(model: Model, crumple: Crumpled) -> Structure:
     """Stress-free or stressed, as the model says."""
     return (prestressed_structure if model.prestressed else stress_free_structure)(crumple)
 

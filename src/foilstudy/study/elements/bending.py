@@ -8,7 +8,7 @@ from scipy.linalg import eigh
 from foilstudy.model.patch import Patch, cylinder_control_points
 from foilstudy.model.shell.shell import Shell
 from foilstudy.model.shell.tangent import mass_matrix
-from foilstudy.solve.paths.path import follow_load
+from foilstudy.solve.loading.path import follow_load
 from foilstudy.study.elements.variants import Variant
 from foilstudy.study.foils import FEP
 from foilstudy.study.verification.candidates import Candidate

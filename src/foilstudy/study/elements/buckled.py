@@ -19,7 +19,7 @@ from foilstudy.model.shell.shell import Shell
 from foilstudy.model.supports.edges import RIGID_LINES, Constraints, constraints, symmetric
 from foilstudy.model.supports.loads import DeadLoad
 from foilstudy.solve.equilibrium.newton import NewtonOptions, NewtonResult, minimise
-from foilstudy.solve.paths.loaded_sheet import LoadedSheet
+from foilstudy.solve.loading.loaded_sheet import LoadedSheet
 from foilstudy.study.elements.variants import VARIANTS, Variant
 from foilstudy.study.foils import FEP
 

@@ -44,9 +44,9 @@ def crumples(
         seeds = seeds[:1]
     energies, steps, statuses = [], [], []
     for seed in seeds:
-        sheet, result = crumple(VARIANTS[name].element, size, THICKNESS, seed, **options)
+        shape, result = crumple(VARIANTS[name].element, size, THICKNESS, seed, **options)
         settled = result.status == "converged"
-        energies.append(float(sheet.energies(result.points).total) if settled else np.nan)
+        energies.append(float(shape.energies().total) if settled else np.nan)
         steps.append(result.steps)
         statuses.append(result.status)
     return Crumples(size, tuple(energies), tuple(steps), tuple(statuses))

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from foilstudy.linalg import SolveError
-from foilstudy.measure.stiffness import InterfaceSystem, Rings, condense, fixed_stiffness
-from foilstudy.model.patch import Patch, refine
-from foilstudy.model.shell.shell import Shell
+from foilstudy.pipeline.method import Mesh
+from foilstudy.pipeline.shape import Shape
+from foilstudy.pipeline.static import stress_free_stiffness
 from foilstudy.study.elements.plan import DEFAULT, Frozen
-from foilstudy.study.elements.scene import COARSE, DIAMETER, REFERENCE_HEIGHT, crumple
+from foilstudy.study.elements.scene import COARSE, crumple, foil_of
 from foilstudy.study.elements.variants import VARIANTS, Variant
-from foilstudy.study.foils import FEP
 
 _REFEREES = (DEFAULT, "staggered_0")
 _REFINEMENTS = 2
@@ -53,30 +52,26 @@ def frozen_shape(case: Frozen) -> FrozenShape:
         If the crumple diverges or a refined stiffness cannot be condensed.
     """
     thickness = case.thickness_um * 1e-6
-    sheet, result = crumple(VARIANTS[DEFAULT].element, COARSE, thickness, seed=0)
+    shape, result = crumple(VARIANTS[DEFAULT].element, COARSE, thickness, seed=0)
     if result.status == "diverged":
         raise SolveError(f"the crumple whose stiffness is compared failed: {result.message}")
-    patch, points = sheet.patch, result.points
+    fine = shape
     for _ in range(_REFINEMENTS):
-        patch, points = patch.refined(), refine(points)
-    referees = [stiffness_of(VARIANTS[name], patch, points, thickness) for name in _REFEREES]
+        fine = fine.refined()
+    referees = [
+        stress_free_stiffness(replace(fine, element=VARIANTS[name].element)) for name in _REFEREES
+    ]
     return FrozenShape(thickness, result.points, np.array(referees))
-
-
-def stiffness_of(
-    variant: Variant, patch: Patch, points: np.ndarray, thickness: float
-) -> np.ndarray:
-    """Axial and radial stiffness of a shape taken as stress-free, N/m."""
-    sheet = Shell.elastic(patch, points, FEP, thickness, variant.element)
-    system = InterfaceSystem.split(sheet.tangent(), Rings.of(patch, points))
-    return fixed_stiffness(condense(system).stiffness)
 
 
 def frozen_errors(variant: Variant, shape: FrozenShape) -> tuple[float, float]:
     """Relative error of the axial and radial stiffness on 5 mm; NaN where it is singular."""
-    patch = Patch.for_cylinder(DIAMETER, REFERENCE_HEIGHT, COARSE)
+    foil = foil_of(shape.thickness)
+    patch = Mesh(COARSE).patch(foil)
     try:
-        ours = stiffness_of(variant, patch, shape.points, shape.thickness)
+        ours = stress_free_stiffness(
+            Shape(foil, patch, shape.points, shape.points, variant.element)
+        )
     except SolveError:
         return np.nan, np.nan
     axial, radial = ours / shape.stiffness - 1

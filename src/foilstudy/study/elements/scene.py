@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import numpy as np
+from dataclasses import replace
 
 from foilstudy.model.foil import Foil, Imperfection
-from foilstudy.model.imperfection import imperfect_cylinder
-from foilstudy.model.patch import Patch, cylinder_control_points
 from foilstudy.model.shell.elements.protocol import Element
-from foilstudy.model.shell.shell import Shell
-from foilstudy.pipeline.scheme import crumpling_scheme
-from foilstudy.solve.relaxation import Ramp, RelaxationResult, StoppingRule, relax
+from foilstudy.pipeline.crumple import uncrumpled
+from foilstudy.pipeline.method import Mesh
+from foilstudy.pipeline.shape import Shape
+from foilstudy.solve.problem import Problem
+from foilstudy.solve.relaxation import Ramp, RelaxationResult, Scheme, StoppingRule, relax
 from foilstudy.study.foils import FEP
 
 DIAMETER, REFERENCE_HEIGHT, GAP_HEIGHT = 0.2, 0.17, 0.13
@@ -28,9 +28,14 @@ def micrometres(thickness: float) -> int:
     return round(thickness * 1e6)
 
 
+def foil_of(thickness: float) -> Foil:
+    """The foil of a thickness, m."""
+    return Foil(DIAMETER, REFERENCE_HEIGHT, GAP_HEIGHT, thickness, FEP)
+
+
 def crumple(
     element: Element, size: float, thickness: float, seed: int, steps_max: int = _STEPS_MAX
-) -> tuple[Shell, RelaxationResult]:
+) -> tuple[Shape, RelaxationResult]:
     """Crumple the foil on a mesh and relax it to a residual of 1e-3.
 
     Parameters
@@ -45,14 +50,10 @@ def crumple(
     steps_max : int
         After the ramp of 2000 steps.
     """
-    foil = Foil(DIAMETER, REFERENCE_HEIGHT, GAP_HEIGHT, thickness, FEP)
-    patch = Patch.for_cylinder(DIAMETER, REFERENCE_HEIGHT, size)
-    stream = (seed, 1000 * micrometres(thickness), round(REFERENCE_HEIGHT * 1e6))
-    imperfection = Imperfection("gaussian", _AMPLITUDE, 0.0, stream)
-    reference = imperfect_cylinder(
-        patch, cylinder_control_points(patch, DIAMETER), foil, imperfection
-    )
-    sheet = Shell.elastic(patch, reference, FEP, thickness, element)
-    ramp = Ramp(REFERENCE_HEIGHT - GAP_HEIGHT, _RAMP_STEPS)
-    rule = StoppingRule(_RESIDUAL, np.inf, steps_max)
-    return sheet, relax(sheet, crumpling_scheme(sheet), ramp, rule)
+    foil = foil_of(thickness)
+    start = uncrumpled(foil, Mesh(size), Imperfection(amplitude=_AMPLITUDE, seed=seed))
+    start = replace(start, element=element)
+    problem = Problem(start.stressed)
+    rule = StoppingRule(_RESIDUAL, steps_max)
+    result = relax(problem, Scheme().start(problem), Ramp(foil.shortening, _RAMP_STEPS), rule)
+    return replace(start, points=result.points), result

@@ -8,7 +8,7 @@ import numpy as np
 
 from foilstudy.base.record import Quantity, write_record
 from foilstudy.config import StudyConfig
-from foilstudy.config.scene import material_of
+from foilstudy.config.foils import material_of
 from foilstudy.linalg import SolveError
 from foilstudy.measure.stiffness import InterfaceSystem, Rings, condense, fixed_stiffness
 from foilstudy.model.patch import Patch, cylinder_control_points

@@ -27,7 +27,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from foilstudy.config import Cell, StudyConfig
-from foilstudy.config.scene import foil_of, patch_of
+from foilstudy.config.foils import foil_of, patch_of
 
 __all__ = [
     "MEASURED",

@@ -10,13 +10,11 @@ from foilstudy.base.files import written_whole
 from foilstudy.base.provenance import provenance
 from foilstudy.base.record import MACHINE_FAULTS, read_record
 from foilstudy.config import ResponseTask, StudyConfig, load_config
-from foilstudy.config.scene import foil_of
+from foilstudy.config.scene import dynamics_of
 from foilstudy.export.contents import Contents
-from foilstudy.export.registry import FORMATS, check_format, write
-from foilstudy.measure.dynamics import frequency_grid
-from foilstudy.pipeline.crumpled import Crumple
-from foilstudy.pipeline.structures import stress_free_structure
-from foilstudy.pipeline.vibration import damping_of, reduced
+from foilstudy.export.formats import FORMATS, check_format
+from foilstudy.export.write import write
+from foilstudy.pipeline.crumpled import Crumpled
 
 README = "README.txt"
 _REALISATIONS = 3
@@ -72,7 +70,7 @@ def contents_of(task: ResponseTask, crumple_path: Path, refinements: int = 0) ->
     task : ResponseTask
         Foil, damping, reduction and band.
     crumple_path : Path
-        Record of `foilstudy.crumple`.
+        Record of a crumple.
     refinements : int
         How often the elements of the same shape are halved before.
 
@@ -96,19 +94,9 @@ def contents_of(task: ResponseTask, crumple_path: Path, refinements: int = 0) ->
             f"{crumple_path}: its status is {status} ({attributes.get('message', 'no message')}); "
             "only an equilibrium is exported, so relax it further or take another seed."
         )
-    crumple = Crumple.recorded(foil_of(task), values, attributes)
+    crumpled = Crumpled.of_record(values, attributes)
     for _ in range(refinements):
-        crumple = crumple.refined()
-    model = reduced(task.dynamics, stress_free_structure(crumple))
-    options = task.dynamics
-    grid = frequency_grid(options.shown_min_hz, options.shown_max_hz, options.frequencies)
-    grid = grid[~(grid > model.valid_to_hz)]  # a model without an estimate is valid as it stands
-    if grid.size < 2:
-        raise ValueError(
-            f"{crumple_path}: the {model.method} model is wrong by about "
-            f"{model.error_estimate:.2g} already at {options.shown_min_hz:g} Hz; set "
-            "dynamics.reduction: rational_krylov, or raise dynamics.tolerance."
-        )
+        crumpled = crumpled.refined()
     origin = {
         "thickness_um": f"{task.thickness_um:g}",
         "reference_height_mm": f"{task.reference_height_mm:g}",
@@ -116,9 +104,10 @@ def contents_of(task: ResponseTask, crumple_path: Path, refinements: int = 0) ->
         "refinements": f"{refinements}",
         "crumple_git_commit": str(attributes["git_commit"]),
     }
-    return Contents(
-        crumple, model, damping_of(options), grid, origin | provenance(), options.mode_shapes
-    )
+    try:
+        return Contents.of(crumpled, dynamics_of(task.dynamics), origin | provenance())
+    except ValueError as problem:
+        raise ValueError(f"{crumple_path}: {problem}") from None
 
 
 def export_realisation(

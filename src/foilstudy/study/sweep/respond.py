@@ -1,152 +1,114 @@
-"""Static and dynamic stiffness of one crumpled realisation."""
+"""The job that measures static and dynamic stiffness of one crumpled realisation."""
 
 from __future__ import annotations
 
 import time
 import traceback
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from foilstudy.base.costs import peak_memory_mb
 from foilstudy.base.outcome import USABLE
-from foilstudy.base.record import MACHINE_FAULTS, Quantity, read_record, write_record
+from foilstudy.base.record import MACHINE_FAULTS, read_record, write_record
 from foilstudy.config import ResponseTask
-from foilstudy.config.scene import foil_of
-from foilstudy.measure.stiffness import (
-    InterfaceSystem,
-    Rings,
-    StaticCondensation,
-    condense,
-    fixed_stiffness,
-    free_stiffness,
-    mesh_limit,
-    prestressed_stiffness,
-)
-from foilstudy.model.shell.elements.sampled import STAGGERED
-from foilstudy.pipeline.crumpled import Crumple
+from foilstudy.config.scene import dynamics_of
+from foilstudy.measure.dynamics import DynamicsOptions, Structure
+from foilstudy.measure.stiffness import fixed_stiffness, free_stiffness
+from foilstudy.model.patch import Patch
+from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.structures import stress_free_structure
-from foilstudy.pipeline.vibration import dynamic_quantities
+from foilstudy.pipeline.vibration import surface_modes, vibration_of
+from foilstudy.study.sweep.quantities import quantities
 
 
-def respond(task: ResponseTask, crumple_path: Path, path: Path) -> None:
+def respond_job(task: ResponseTask, crumple_path: Path, path: Path) -> None:
     """Measure the crumple in `crumple_path` and write `path`, whatever happens.
 
     A crumple without a shape passes its status on; a failed measurement becomes a record whose
     ``status`` and ``message`` say so.
     """
-    values, attributes = read_record(crumple_path)
+    recorded, attributes = read_record(crumple_path)
     status, message = attributes["status"], attributes["message"]
-    quantities: dict[str, Quantity] = {}
+    values: dict[str, np.ndarray | float] = {}
     if status in USABLE:
         try:
-            quantities = _measure(task, values, attributes)
-            message = "; ".join(filter(None, (message, _beyond_validity(task, quantities))))
+            values = _measured(task, Crumpled.of_record(recorded, attributes))
+            message = "; ".join(filter(None, (message, _beyond_validity(task, values))))
         except MACHINE_FAULTS:
             raise
         except Exception as error:  # a study must survive any one realisation
             traceback.print_exc()
             status, message = "failed", f"{type(error).__name__}: {error}"
-    quantities["peak_memory"] = Quantity(peak_memory_mb(), "MB", "peak memory of the job")
-    write_record(path, quantities, {"status": status, "message": message})
-    print(_summary(quantities) if "static_stiffness" in quantities else f"{status}: {message}")
+    values["peak_memory"] = peak_memory_mb()
+    described = {"status": status, "message": message, "task": task.model_dump_json()}
+    write_record(path, quantities(values), described | {"foil": attributes["foil"]})
+    print(_summary(values) if "static_stiffness" in values else f"{status}: {message}")
 
 
-def _beyond_validity(task: ResponseTask, quantities: dict[str, Quantity]) -> str:
+def _beyond_validity(task: ResponseTask, values: dict) -> str:
     """What to say of a reduced model that does not reach to the end of the band."""
-    error, options = quantities["reduction_error"].values, task.dynamics
+    error, options = values["reduction_error"], task.dynamics
     if error <= options.tolerance:
         return ""
-    valid_to = quantities["valid_to_frequency"].values
     remedy = "lower dynamics.shown_max_hz or raise dynamics.tolerance"
     if options.reduction != "rational_krylov":
         remedy = f"set dynamics.reduction: rational_krylov, or {remedy}"
     return (
-        f"dynamic stiffness only to {valid_to:.0f} Hz, as the {options.reduction} model is wrong "
-        f"by about {100 * error:.2g} % in the shown band: {remedy}"
+        f"dynamic stiffness only to {values['valid_to_frequency']:.0f} Hz, as the "
+        f"{options.reduction} model is wrong by about {100 * error:.2g} % in the shown band: "
+        f"{remedy}"
     )
 
 
-def _summary(quantities: dict[str, Quantity]) -> str:
-    axial, radial = quantities["static_stiffness"].values
-    seconds = sum(quantities[name].values for name in ("seconds_static", "seconds_dynamic"))
+def _summary(values: dict) -> str:
+    axial, radial = values["static_stiffness"]
+    seconds = values["seconds_static"] + values["seconds_dynamic"]
     return f"axial {axial:.4g} N/m, radial {radial:.4g} N/m ({seconds:.1f} s)"
 
 
-def _measure(task: ResponseTask, values: dict, attributes: dict) -> dict[str, Quantity]:
-    crumple = Crumple.recorded(foil_of(task), values, attributes)
+def _measured(task: ResponseTask, crumpled: Crumpled) -> dict[str, np.ndarray | float]:
     clock = time.perf_counter()
-    structure = stress_free_structure(crumple)
-    limit = _mesh_limit(task, crumple, fixed_stiffness(structure.static.stiffness))
-    quantities = _static_quantities(structure.static, limit) | {
-        "prestressed_stiffness": Quantity(
-            prestressed_stiffness(crumple.sheet(crumple.reference), crumple.points),
-            "N/m",
-            "tangent stiffness at the stressed equilibrium",
-            ("direction",),
-        ),
-    }
+    structure = stress_free_structure(crumpled)
+    values = _static(crumpled, structure, task.refinements)
     seconds_static = time.perf_counter() - clock
     clock = time.perf_counter()
-    quantities |= dynamic_quantities(task.dynamics, structure, crumple.patch)
+    values |= _dynamic(structure, dynamics_of(task.dynamics), crumpled.patch)
     seconds_dynamic = time.perf_counter() - clock
-    return quantities | {
-        "seconds_static": Quantity(seconds_static, "s", "time of the static stiffness"),
-        "seconds_dynamic": Quantity(seconds_dynamic, "s", "time of the dynamic stiffness"),
+    return values | {"seconds_static": seconds_static, "seconds_dynamic": seconds_dynamic}
+
+
+def _static(crumpled: Crumpled, structure: Structure, refinements: int) -> dict[str, np.ndarray]:
+    interface = structure.static.stiffness
+    plain = fixed_stiffness(interface)
+    limit = crumpled.mesh_limit(refinements, plain)
+    return {
+        "static_stiffness": plain,
+        "static_stiffness_free": free_stiffness(interface),
+        "static_stiffness_converged": limit.stiffness,
+        "static_stiffness_mesh_error": limit.error,
+        "interface_stiffness": interface,
+        "prestressed_stiffness": crumpled.prestressed_stiffness(),
     }
 
 
-def _stress_free_stiffness(crumple: Crumple) -> np.ndarray:
-    """Axial and radial, N/m."""
-    rings = Rings.of(crumple.patch, crumple.points)
-    matrix = crumple.sheet(crumple.points).tangent()
-    return fixed_stiffness(condense(InterfaceSystem.split(matrix, rings)).stiffness)
-
-
-def _mesh_limit(
-    task: ResponseTask, crumple: Crumple, coarsest: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Stiffness of the same shape at element size zero and its error, NaN without refinement."""
-    levels, fine = [coarsest], crumple
-    staggered = np.full(2, np.nan)
-    for level in range(task.refinements):
-        fine = fine.refined()
-        levels.append(_stress_free_stiffness(fine))
-        if level == 0:
-            staggered = _stress_free_stiffness(replace(fine, element=STAGGERED))
-    if len(levels) == 1:
-        return np.full(2, np.nan), np.full(2, np.nan)
-    return mesh_limit(levels, staggered)
-
-
-def _static_quantities(static: StaticCondensation, limit: tuple) -> dict[str, Quantity]:
-    directional = {
-        "static_stiffness": (
-            fixed_stiffness(static.stiffness),
-            "stress-free static stiffness, other motions held",
-        ),
-        "static_stiffness_free": (
-            free_stiffness(static.stiffness),
-            "stress-free static stiffness, other motions free",
-        ),
-        "static_stiffness_converged": (
-            limit[0],
-            "stress-free static stiffness of the same shape, extrapolated to element size zero",
-        ),
-        "static_stiffness_mesh_error": (
-            limit[1],
-            "estimated mesh error of static_stiffness_converged",
-        ),
+def _dynamic(
+    structure: Structure, options: DynamicsOptions, patch: Patch
+) -> dict[str, np.ndarray | float]:
+    vibration = vibration_of(structure, options)
+    model = vibration.model
+    values: dict[str, np.ndarray | float] = {
+        "frequency": vibration.frequencies,
+        "dynamic_stiffness_re": vibration.dynamic_stiffness.real,
+        "dynamic_stiffness_im": vibration.dynamic_stiffness.imag,
+        "reduced_coordinates": float(model.size),
+        "reduction_error": model.error_estimate,
+        "valid_to_frequency": model.valid_to_hz,
+        "mode_count": vibration.mode_count,
+        "eigenfrequency": vibration.eigenfrequencies,
+        "first_eigenfrequency": vibration.eigenfrequencies[0],
     }
-    quantities = {
-        name: Quantity(values, "N/m", text, ("direction",))
-        for name, (values, text) in directional.items()
-    }
-    quantities["interface_stiffness"] = Quantity(
-        static.stiffness,
-        "N/m, N, N m",
-        "stress-free interface stiffness",
-        ("interface_dof", "interface_dof_in"),
-    )
-    return quantities
+    if vibration.mode_shapes.shape[1]:
+        shapes = surface_modes(patch, vibration.mode_shapes)
+        values["mode_shape"] = shapes.astype(np.float32)
+    return values

@@ -27,8 +27,8 @@ def compile_kernels() -> bool:
 
     from foilstudy.base.record import read_record
     from foilstudy.model.shell.elements import ELEMENTS
-    from foilstudy.study.sweep.crumple import crumple
-    from foilstudy.study.sweep.respond import respond
+    from foilstudy.study.sweep.crumple import crumple_job
+    from foilstudy.study.sweep.respond import respond_job
 
     with event.install_recorder("numba:compile") as compiled:
         for element in ELEMENTS:
@@ -36,8 +36,8 @@ def compile_kernels() -> bool:
             (cell,) = study.cells()
             with tempfile.TemporaryDirectory() as folder:
                 paths = Path(folder) / "crumple.nc", Path(folder) / "response.nc"
-                crumple(study.crumple_task(cell), paths[0])
-                respond(study.response_task(cell), *paths)
+                crumple_job(study.crumple_task(cell), paths[0])
+                respond_job(study.response_task(cell), *paths)
                 _, attributes = read_record(paths[1])
             if attributes["status"] not in USABLE:
                 raise RuntimeError(
@@ -51,18 +51,20 @@ def _general_force() -> None:
     """Force by the kernel for any strain sampling; a realisation needs its tangent alone."""
     import numpy as np
 
-    from foilstudy.config.scene import foil_of, patch_of
+    from foilstudy.config.foils import foil_of
+    from foilstudy.config.scene import mesh_of
     from foilstudy.model.patch import cylinder_control_points
-    from foilstudy.model.shell.elements import STAGGERED
-    from foilstudy.model.shell.sheet_model import SheetModel
+    from foilstudy.model.shell.elements.sampled import STAGGERED
+    from foilstudy.model.shell.shell import Shell
 
     study = load_config(_smallest("corner"))
     (cell,) = study.cells()
     task = study.crumple_task(cell)
-    foil, patch = foil_of(task), patch_of(task)
+    foil = foil_of(task)
+    patch = mesh_of(task.mesh).patch(foil)
     points = cylinder_control_points(patch, foil.diameter)
-    sheet = SheetModel(patch, points, foil.material, foil.thickness, STAGGERED)
-    sheet.force(points, np.empty_like(points))
+    shell = Shell.elastic(patch, points, foil.material, foil.thickness, STAGGERED)
+    shell.force(points, np.empty_like(points))
 
 
 def _smallest(element: str) -> dict:

@@ -10,8 +10,8 @@ import numpy as np
 from foilstudy.linalg import SolveError
 from foilstudy.model.patch import knot_points, refine
 from foilstudy.model.supports.interpolation import along_weights, around_weights
-from foilstudy.solve.paths.loaded_sheet import LoadedSheet
-from foilstudy.solve.paths.path import follow_load
+from foilstudy.solve.loading.loaded_sheet import LoadedSheet
+from foilstudy.solve.loading.path import follow_load
 from foilstudy.study.verification.candidates import Candidate
 from foilstudy.study.verification.records import (
     TOLERANCE,

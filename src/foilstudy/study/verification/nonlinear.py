@@ -19,7 +19,7 @@ from foilstudy.model.foil import Material
 from foilstudy.model.patch import Patch, fitted_control_points
 from foilstudy.model.supports.edges import clamped, constraints, symmetric
 from foilstudy.model.supports.loads import EdgeMoment, edge_load, point_load
-from foilstudy.solve.paths.loaded_sheet import LoadedSheet
+from foilstudy.solve.loading.loaded_sheet import LoadedSheet
 from foilstudy.study.verification.candidates import Candidate
 from foilstudy.study.verification.load_path import NonlinearCase, Probe, run
 

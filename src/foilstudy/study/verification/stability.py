@@ -29,8 +29,8 @@ from foilstudy.model.supports.edges import (
 )
 from foilstudy.model.supports.interpolation import as_vector
 from foilstudy.model.supports.loads import edge_load
-from foilstudy.solve.paths.buckling import buckling_modes
-from foilstudy.solve.paths.loaded_sheet import LoadedSheet
+from foilstudy.solve.loading.buckling import buckling_modes
+from foilstudy.solve.loading.loaded_sheet import LoadedSheet
 from foilstudy.study.foils import FEP
 from foilstudy.study.verification.candidates import Candidate
 from foilstudy.study.verification.frequencies import LENGTH, RADIUS

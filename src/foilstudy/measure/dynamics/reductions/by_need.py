@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 from foilstudy.linalg import SolveError
 from foilstudy.measure.dynamics.accuracy import Wanted
@@ -11,6 +12,25 @@ from foilstudy.measure.dynamics.structure import Structure
 
 _FIRST, _FACTOR, _TRIES = 2.0, 1.4, 6
 """First cut-off over the highest frequency, growth, and how often: up to 10.8 times."""
+
+
+@dataclass(frozen=True)
+class ByNeed:
+    """A reduction without a cut-off of its own: see `with_enough_modes`.
+
+    Attributes
+    ----------
+    kind : callable
+        `CraigBampton` or `HintzHerting`: cut-off (Hz) and `Wanted` to reduction.
+    wanted : Wanted
+    """
+
+    kind: Callable[[float, Wanted], Reduction]
+    wanted: Wanted
+
+    def reduce(self, structure: Structure) -> ReducedModel:
+        """See `Reduction`."""
+        return with_enough_modes(structure, self.kind, self.wanted)
 
 
 def with_enough_modes(

@@ -26,6 +26,11 @@ class Guyan:
 
     wanted: Wanted | None = None
 
+    @classmethod
+    def for_band(cls, wanted: Wanted, cutoff_hz: float | None = None) -> Guyan:
+        """See `Reduction`; there is no cut-off."""
+        return cls(wanted)
+
     def reduce(self, structure: Structure) -> ReducedModel:
         """Reduced model of the structure."""
         basis = np.empty((structure.mass.interior.shape[0], 0))

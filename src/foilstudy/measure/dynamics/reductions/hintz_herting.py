@@ -13,7 +13,8 @@ import numpy as np
 
 from foilstudy.linalg import modes_below
 from foilstudy.measure.dynamics.accuracy import Wanted, judged
-from foilstudy.measure.dynamics.reduction import ReducedModel, project
+from foilstudy.measure.dynamics.reduction import ReducedModel, Reduction, project
+from foilstudy.measure.dynamics.reductions.by_need import ByNeed
 from foilstudy.measure.dynamics.structure import INTERFACE, Structure, bordered
 
 
@@ -30,6 +31,11 @@ class HintzHerting:
 
     cutoff_hz: float
     wanted: Wanted | None = None
+
+    @classmethod
+    def for_band(cls, wanted: Wanted, cutoff_hz: float | None = None) -> Reduction:
+        """See `Reduction`; without a cut-off, as many modes as the tolerance needs."""
+        return ByNeed(cls, wanted) if cutoff_hz is None else cls(cutoff_hz, wanted)
 
     def reduce(self, structure: Structure) -> ReducedModel:
         """Reduced model of the structure.

@@ -43,6 +43,11 @@ class RationalKrylov:
     moments_per_shift: int = 48
     shifts_max: int = 6
 
+    @classmethod
+    def for_band(cls, wanted: Wanted, cutoff_hz: float | None = None) -> RationalKrylov:
+        """See `Reduction`; there is no cut-off."""
+        return cls(wanted)
+
     def reduce(self, structure: Structure) -> ReducedModel:
         """Reduced model of the structure; its estimate says whether it meets the tolerance.
 

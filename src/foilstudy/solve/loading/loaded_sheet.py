@@ -7,7 +7,8 @@ import scipy.sparse as sparse
 
 from foilstudy.model.shell.shell import Shell
 from foilstudy.model.supports.edges import Constraints
-from foilstudy.model.supports.loads import Load
+from foilstudy.model.supports.loads import Load, Loading
+from foilstudy.solve.problem import Problem
 
 
 class LoadedSheet:
@@ -42,6 +43,7 @@ class LoadedSheet:
         self.constraints = constraints
         self.load = load
         self.factor = factor
+        self._problem = Problem(sheet, Loading(load, factor))
         self._base = sheet.reference if base is None else base
 
     def at(self, factor: float) -> LoadedSheet:
@@ -59,17 +61,13 @@ class LoadedSheet:
     def value_and_gradient(self, q: np.ndarray) -> tuple[float, np.ndarray]:
         """Potential (J) and its gradient; see `newton.Potential`."""
         points = self.points(q)
-        internal = np.empty_like(points)
-        energy = float(np.sum(self.sheet.force(points, internal)))
-        work, force = self.load.work_and_force(points)
-        gradient = self.constraints.reduced(internal - self.factor * force)
-        return energy - self.factor * work, gradient
+        gradient = np.empty_like(points)
+        energies = self._problem.force(points, gradient)
+        return float(energies.sum()), self.constraints.reduced(gradient)
 
     def hessian(self, q: np.ndarray) -> sparse.csr_matrix:
         """Tangent on the unknowns, load stiffness included; see `newton.Potential`."""
-        points = self.points(q)
-        tangent = self.sheet.tangent(points)
-        return self.constraints.reduced_matrix(tangent - self.factor * self.load.stiffness(points))
+        return self.constraints.reduced_matrix(self._problem.tangent(self.points(q)))
 
     def rounding(self) -> float:
         """Norm of the force that rounding leaves on a shape without any, N.

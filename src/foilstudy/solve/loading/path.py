@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from foilstudy.solve.equilibrium.newton import NewtonOptions, minimise
-from foilstudy.solve.paths.loaded_sheet import LoadedSheet
+from foilstudy.solve.loading.loaded_sheet import LoadedSheet
 
 _RESIDUAL = 1e-8
 _ITERATIONS = 60

@@ -1,28 +1,16 @@
-"""What the relaxation asks of a damping, and adaptive viscous damping."""
+"""Adaptive viscous damping."""
 
 from __future__ import annotations
 
-from typing import Protocol
+from dataclasses import dataclass
 
 import numpy as np
 
-
-class Damping(Protocol):
-    """Chooses the viscous coefficient c of the next pseudo-time step."""
-
-    def coefficient(self, work_rate: float, momentum_norm: float) -> float:
-        """Coefficient c (mass proportional, per step) from the current motion.
-
-        Parameters
-        ----------
-        work_rate : float
-            v . (f - f_old): change of the internal force over the last step along the motion, J.
-        momentum_norm : float
-            v . M v, J.
-        """
-        ...
+_LARGEST = 1.9
+"""Of the coefficient; at 2 the motion would stop within a step."""
 
 
+@dataclass(frozen=True)
 class AdaptiveViscousDamping:
     """Damping in proportion to the frequency of the sheet's current motion (after Underwood 1983).
 
@@ -31,7 +19,7 @@ class AdaptiveViscousDamping:
     jumps from step to step and amplifies rounding errors: a relative perturbation of 1e-15 grew to
     millimetres along a ramp, with it to 1e-9 mm.
 
-    Parameters
+    Attributes
     ----------
     scale : float
         1 damps a single mode critically.
@@ -39,9 +27,19 @@ class AdaptiveViscousDamping:
         Steps over which the average decays to 1/e.
     """
 
-    def __init__(self, scale: float = 1.0, memory: float = 50.0):
-        self.scale = scale
-        self._weight = 1.0 / memory
+    kind = "adaptive_viscous"
+    scale: float = 1.0
+    memory: float = 50.0
+
+    def start(self) -> _Averages:
+        """See `Damping`."""
+        return _Averages(self)
+
+
+class _Averages:
+    def __init__(self, damping: AdaptiveViscousDamping):
+        self._scale = damping.scale
+        self._weight = 1.0 / damping.memory
         self._work_rate = 0.0
         self._momentum_norm = 0.0
 
@@ -50,4 +48,4 @@ class AdaptiveViscousDamping:
         self._momentum_norm += self._weight * (momentum_norm - self._momentum_norm)
         if self._momentum_norm <= 0.0:
             return 0.0
-        return min(2.0 * self.scale * np.sqrt(self._work_rate / self._momentum_norm), 1.9)
+        return min(2.0 * self._scale * np.sqrt(self._work_rate / self._momentum_norm), _LARGEST)

@@ -9,7 +9,7 @@ import scipy.sparse as sparse
 from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
 
 from foilstudy.linalg import SolveError, factorise
-from foilstudy.solve.paths.loaded_sheet import LoadedSheet
+from foilstudy.solve.loading.loaded_sheet import LoadedSheet
 
 _STEP = 1e-3
 """Largest displacement of the differenced prestate, in element lengths."""

@@ -1,4 +1,4 @@
-"""Every format by its name."""
+"""Every export format by its name; reading the list loads no library."""
 
 from __future__ import annotations
 
@@ -6,9 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
-
-from foilstudy.base.files import written_whole
-from foilstudy.export.contents import Contents
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -30,7 +28,7 @@ class Format:
     module: str
     function: str = "write"
 
-    def writer(self) -> Callable[[Contents, Path], None]:
+    def writer(self) -> Callable[[Any, Path], None]:
         """The function that writes the file."""
         return getattr(import_module(f"foilstudy.export.{self.module}"), self.function)
 
@@ -77,22 +75,3 @@ def check_format(name: str) -> None:
     if name not in FORMATS:
         known = ", ".join(FORMATS)
         raise ValueError(f"{name!r} is not an export format; use one of {known}.")
-
-
-def write(contents: Contents, name: str, path: Path) -> None:
-    """Write one format; the file appears only when it is complete.
-
-    Raises
-    ------
-    ValueError
-        If the format is unknown, or cannot hold this model.
-    """
-    check_format(name)
-    with written_whole(path) as partial:
-        # writers that look at the ending of a name find the one they expect
-        named = partial.with_suffix(partial.suffix + Path(FORMATS[name].filename).suffix)
-        try:
-            FORMATS[name].writer()(contents, named)
-            named.replace(partial)
-        finally:
-            named.unlink(missing_ok=True)

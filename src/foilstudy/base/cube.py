@@ -1,0 +1,56 @@
+"""The cube of a study as a file: how it is recognised and opened."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+CONVENTION = "foilstudy cube 1"
+
+
+def open_cube(path: str | Path) -> xr.Dataset:
+    """Open a cube with its dynamic stiffness as one complex variable.
+
+    Parameters
+    ----------
+    path : str or Path
+        ``results/NAME/cube.nc``.
+
+    Returns
+    -------
+    xarray.Dataset
+        Loaded; ``dynamic_stiffness`` replaces its real and imaginary parts.
+
+    Raises
+    ------
+    ValueError
+        If there is no such file, or if it is not a cube of this package.
+    """
+    import xarray as xr  # half a second; only those who open a cube wait for it
+
+    path = Path(path)
+    if not path.exists():
+        raise ValueError(f"{path} does not exist; run the study first or correct the path.")
+    if not path.is_file():
+        raise ValueError(f"{path} is not a file; give the cube.nc of a study.")
+    try:
+        with xr.open_dataset(path, engine="netcdf4") as file:
+            cube = file.load()
+    except (OSError, ValueError, RuntimeError) as error:
+        raise ValueError(
+            f"{path} is not a NetCDF file that can be read ({error}); give the cube.nc of a study."
+        ) from error
+    parts = {"dynamic_stiffness_re", "dynamic_stiffness_im"}
+    if cube.attrs.get("Conventions") != CONVENTION or not parts <= set(cube):
+        raise ValueError(
+            f"{path} is a NetCDF file but not a cube of foilstudy; give the cube.nc of a study, "
+            "not the record of one realisation."
+        )
+    real, imaginary = cube["dynamic_stiffness_re"], cube["dynamic_stiffness_im"]
+    cube["dynamic_stiffness"] = (real + 1j * imaginary).assign_attrs(
+        units="N/m", long_name="dynamic stiffness"
+    )
+    return cube.drop_vars(parts)

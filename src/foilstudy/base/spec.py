@@ -1,0 +1,74 @@
+"""Specifications as plain data: what is recorded with a result, and read back from it.
+
+A specification is a frozen dataclass of numbers, texts and further specifications. One that is an
+entry of a registry has a class attribute ``kind``, its name there, and the field that holds it
+names the registry by `choice_field`.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import MISSING, field, fields, is_dataclass
+from typing import Any, TypeVar, get_type_hints
+
+from foilstudy.base.registry import Registry
+
+__all__ = ["choice_field", "dumped", "loaded", "plain", "restored"]
+
+T = TypeVar("T")
+_REGISTRY = "registry"
+
+
+def choice_field(registry: Registry, default_factory: Any = MISSING) -> Any:
+    """Dataclass field whose value is an entry of a registry."""
+    return field(default_factory=default_factory, metadata={_REGISTRY: registry})
+
+
+def plain(spec: Any) -> Any:
+    """Numbers, texts, lists and dicts that say the same as a specification."""
+    if is_dataclass(spec):
+        content = {item.name: plain(getattr(spec, item.name)) for item in fields(spec)}
+        kind = getattr(type(spec), "kind", None)
+        return {"kind": kind} | content if isinstance(kind, str) else content
+    if isinstance(spec, tuple | list):
+        return [plain(item) for item in spec]
+    return spec
+
+
+def restored(kind: type[T], content: dict[str, Any]) -> T:
+    """The specification of a class that `plain` has taken apart.
+
+    Raises
+    ------
+    ValueError
+        If the content has other fields, as from another release of the package.
+    """
+    hints = get_type_hints(kind)
+    known = {item.name: item for item in fields(kind)}
+    content = {name: value for name, value in content.items() if name != "kind" or "kind" in known}
+    if content.keys() != known.keys():
+        raise ValueError(
+            f"a recorded {kind.__name__} has the fields {', '.join(content)}, not "
+            f"{', '.join(known)}; it is from another release: compute the record again."
+        )
+    values = {}
+    for name, value in content.items():
+        registry = known[name].metadata.get(_REGISTRY)
+        if registry is not None:
+            value = restored(registry[value["kind"]], value)
+        elif is_dataclass(hints[name]):
+            value = restored(hints[name], value)
+        elif isinstance(value, list):
+            value = tuple(value)
+        values[name] = value
+    return kind(**values)
+
+
+def dumped(spec: Any) -> str:
+    """A specification as a line of JSON."""
+    return json.dumps(plain(spec))
+
+
+def loaded(kind: type[T], text: str) -> T:
+    """What `dumped` has written."""
+    return restored(kind, json.loads(text))

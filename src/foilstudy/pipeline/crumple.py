@@ -1,0 +1,56 @@
+"""The central act: crumple a foil."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from foilstudy.model.foil import Foil, Imperfection
+from foilstudy.model.imperfections.cylinder import imperfect_cylinder
+from foilstudy.pipeline.crumpled import Crumpled, Recipe
+from foilstudy.pipeline.method import Mesh, Method
+from foilstudy.solve.problem import Problem
+
+
+def crumple(
+    foil: Foil,
+    mesh: Mesh | None = None,
+    imperfection: Imperfection | None = None,
+    method: Method | None = None,
+) -> Crumpled:
+    """Push a foil cylinder together until it fits its gap.
+
+    Parameters
+    ----------
+    foil : Foil
+    mesh : Mesh, optional
+    imperfection : Imperfection, optional
+        Its seed chooses the realisation.
+    method : Method, optional
+
+    Returns
+    -------
+    Crumpled
+        Never raises for a foil that does not come to rest: its status says so.
+
+    Raises
+    ------
+    ValueError
+        If the mesh cannot follow the imperfection, or a name is unknown.
+    """
+    start = uncrumpled(foil, mesh, imperfection, method)
+    arrival = start.method.path.follow(Problem(start.stressed), foil.shortening)
+    return replace(start, points=arrival.points, arrival=arrival)
+
+
+def uncrumpled(
+    foil: Foil,
+    mesh: Mesh | None = None,
+    imperfection: Imperfection | None = None,
+    method: Method | None = None,
+) -> Crumpled:
+    """The imperfect cylinder from which `crumple` starts."""
+    recipe = Recipe(mesh or Mesh(), imperfection or Imperfection(), method or Method())
+    patch = recipe.mesh.patch(foil)
+    reference = imperfect_cylinder(patch, foil, recipe.imperfection)
+    element = recipe.mesh.element_at_work()
+    return Crumpled(foil, patch, reference, reference, element, recipe)

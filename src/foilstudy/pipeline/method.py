@@ -1,0 +1,58 @@
+"""How a foil is crumpled: the mesh and the method, as data that is recorded with the result."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from foilstudy.base.spec import choice_field
+from foilstudy.measure.choices import STRESS_REMOVALS
+from foilstudy.measure.stiffness.stress_removal import Reset, StressRemoval
+from foilstudy.model.foil import Foil
+from foilstudy.model.patch import Patch
+from foilstudy.model.shell.elements import ELEMENTS
+from foilstudy.model.shell.elements.protocol import Element
+from foilstudy.solve.choices import PATHS
+from foilstudy.solve.paths import Path
+from foilstudy.solve.paths.relaxation import RelaxationPath
+
+__all__ = ["Mesh", "Method"]
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Discretisation of a foil.
+
+    Attributes
+    ----------
+    element_size : float
+        Edge length of the elements, m; the patch takes the nearest that fits.
+    element : str
+        A name of `foilstudy.model.shell.elements.ELEMENTS`.
+    """
+
+    element_size: float = 5e-3
+    element: str = "corner"
+
+    def patch(self, foil: Foil) -> Patch:
+        """The patch of a foil."""
+        return Patch.for_cylinder(foil.diameter, foil.reference_height, self.element_size)
+
+    def element_at_work(self) -> Element:
+        """The element of that name, with its default parameters."""
+        return ELEMENTS[self.element]()
+
+
+@dataclass(frozen=True)
+class Method:
+    """What decides a crumple beside foil, mesh and imperfection.
+
+    Attributes
+    ----------
+    path : Path
+        From the cylinder to the equilibrium, with all its numbers.
+    stress_removal : StressRemoval
+        What makes the crumple stress-free before it is measured.
+    """
+
+    path: Path = choice_field(PATHS, RelaxationPath)
+    stress_removal: StressRemoval = choice_field(STRESS_REMOVALS, Reset)

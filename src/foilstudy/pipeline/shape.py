@@ -1,0 +1,64 @@
+"""A foil in some shape on some mesh: what stiffness and dynamics are measured of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Self
+
+import numpy as np
+
+from foilstudy.measure.stiffness.stress_removal import Reset, StressRemoval
+from foilstudy.model.foil import Foil
+from foilstudy.model.patch import Patch, refine
+from foilstudy.model.shell.elements.protocol import Element
+from foilstudy.model.shell.shell import Energies, Shell
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Shape:
+    """A shape of a foil between two rings, SI.
+
+    Attributes
+    ----------
+    foil : Foil
+    patch : Patch
+    points, reference : ndarray, shape (3, rows, columns)
+        Control points of the shape and of the stress-free shape before it was crumpled, m.
+    element : Element
+    """
+
+    foil: Foil
+    patch: Patch
+    points: np.ndarray
+    reference: np.ndarray
+    element: Element
+
+    def __repr__(self) -> str:
+        size = 1e3 * max(self.patch.size_around, self.patch.size_along)
+        return f"<{type(self).__name__}: {self.foil}, {size:.3g} mm {self.element.name} elements>"
+
+    @cached_property
+    def stressed(self) -> Shell:
+        """The shell as it is: stress-free before it was crumpled."""
+        foil = self.foil
+        return Shell.elastic(
+            self.patch, self.reference, foil.material, foil.thickness, self.element
+        )
+
+    def relieved(self, removal: StressRemoval | None = None) -> Shell:
+        """The shell that is stress-free in this shape."""
+        return (removal or Reset()).relieved(self.stressed, self.points)
+
+    def energies(self) -> Energies:
+        """Strain energies of the shape, J."""
+        return self.stressed.energies(self.points)
+
+    def refined(self) -> Self:
+        """The same shape with every element split in four."""
+        return replace(
+            self,
+            patch=self.patch.refined(),
+            points=refine(self.points),
+            reference=refine(self.reference),
+        )

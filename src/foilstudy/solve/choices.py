@@ -1,0 +1,40 @@
+"""What there is to choose from in crumpling: one file each, one line here."""
+
+from foilstudy.base.registry import Choice, Registry
+
+MASSES = Registry(
+    "mass scaling",
+    {
+        "spectral": Choice(
+            "solve.relaxation.mass.spectral:SpectralMassScaling",
+            "bounds the stiffness of the sheet at every wavelength",
+        )
+    },
+)
+DAMPINGS = Registry(
+    "damping of the relaxation",
+    {
+        "adaptive_viscous": Choice(
+            "solve.relaxation.damping.adaptive_viscous:AdaptiveViscousDamping",
+            "in proportion to the frequency of the current motion, averaged over steps",
+        )
+    },
+)
+SEARCHES = Registry(
+    "search for the minimum",
+    {
+        "quasi_newton": Choice(
+            "solve.equilibrium.newton:minimise",
+            "quasi-Newton steps on a factored tangent, its negative eigenvalues counted",
+        )
+    },
+)
+PATHS = Registry(
+    "path",
+    {
+        "relaxation": Choice(
+            "solve.paths.relaxation:RelaxationPath",
+            "the top ring closes the gap in a ramp while the sheet relaxes, then it settles",
+        )
+    },
+)

@@ -1,0 +1,74 @@
+"""The path of the studies: a ramp with relaxation, then settling.
+
+The motion goes on from the ramp into the relaxation, as stopping in between would lead elsewhere;
+and its dampers go on from the relaxation into the settling.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from foilstudy.solve.equilibrium.settle import SettleOptions, SettleResult, settle
+from foilstudy.solve.paths import Arrival
+from foilstudy.solve.problem import Problem
+from foilstudy.solve.relaxation.loop import Ramp, RelaxationResult, StoppingRule, relax
+from foilstudy.solve.relaxation.scheme import Scheme
+
+
+@dataclass(frozen=True)
+class RelaxationPath:
+    """Explicit relaxation until the residual is moderate, then minimisation.
+
+    Attributes
+    ----------
+    ramp_steps : int
+        Pseudo-time steps in which the top ring closes the gap.
+    scheme : Scheme
+    settling : SettleOptions
+        Its `relaxation_steps_max` counts from the end of the ramp.
+    check_interval : int
+        Steps between two checks and two history entries.
+    """
+
+    kind = "relaxation"
+    ramp_steps: int = 2000
+    scheme: Scheme = field(default_factory=Scheme)
+    settling: SettleOptions = field(default_factory=SettleOptions)
+    check_interval: int = 20
+
+    def follow(self, problem: Problem, shortening: float) -> Arrival:
+        """See `Path`."""
+        motion, settling = self.scheme.start(problem), self.settling
+        rule = StoppingRule(
+            settling.switch_residual, settling.relaxation_steps_max, self.check_interval
+        )
+        relaxed = relax(problem, motion, Ramp(shortening, self.ramp_steps), rule)
+        if relaxed.status == "diverged":
+            return _diverged(relaxed)
+        left = settling.relaxation_steps_max - (relaxed.steps - self.ramp_steps)
+        settled = settle(
+            problem, motion, relaxed.points, replace(settling, relaxation_steps_max=left)
+        )
+        return _arrived(settled, relaxed)
+
+    def settle(self, problem: Problem, points: np.ndarray) -> Arrival:
+        """See `Path`."""
+        return _arrived(settle(problem, self.scheme.start(problem), points, self.settling), None)
+
+
+def _diverged(relaxed: RelaxationResult) -> Arrival:
+    return Arrival(
+        relaxed.status, relaxed.message, relaxed.points, relaxed.residual, None,
+        relaxed.steps, 0, 0, relaxed.history,
+    )  # fmt: skip
+
+
+def _arrived(settled: SettleResult, relaxed: RelaxationResult | None) -> Arrival:
+    before = relaxed.steps if relaxed else 0
+    return Arrival(
+        settled.status, settled.message, settled.points, settled.residual,
+        settled.negative_eigenvalues, before + settled.relaxation_steps, settled.newton_steps,
+        settled.hessians, relaxed.history if relaxed else None,
+    )  # fmt: skip

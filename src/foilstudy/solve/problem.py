@@ -1,0 +1,148 @@
+"""A problem: the potential energy of a sheet as a sum of terms, over an explicit state.
+
+Relaxation, minimisation and stiffness take a problem and know nothing of what it is made of. The
+shell is the first term; loads, contact or the stress of a plastic foil are further ones. A term
+without memory has the state None. One with memory is evaluated at the state that was last
+committed; `commit` lets every term take note of a shape that has been reached, and `roll_back`
+takes the last of them back.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+import numpy as np
+import scipy.sparse as sparse
+
+from foilstudy.model.patch import Patch
+from foilstudy.model.shell.shell import Shell
+
+__all__ = ["Problem", "Term"]
+
+
+class Term(Protocol):
+    """A share of the potential energy, as a function of the control points at a given state.
+
+    States are values: a term never changes one, it returns another.
+
+    Attributes
+    ----------
+    energy_names : tuple of str
+        What the energies that `force` returns are called.
+    """
+
+    energy_names: tuple[str, ...]
+
+    def start(self) -> Any:
+        """State of what nothing has happened to yet; None if the term has no memory."""
+        ...
+
+    def force(self, points: np.ndarray, out: np.ndarray, state: Any) -> np.ndarray:
+        """Write the derivative of the energy by the control points, N, and return the energies, J.
+
+        Parameters
+        ----------
+        points, out : ndarray, shape (3, rows, columns)
+        state
+            From `start` or `evolved`.
+
+        Returns
+        -------
+        ndarray, shape (len(energy_names),)
+        """
+        ...
+
+    def tangent(self, points: np.ndarray, state: Any) -> sparse.csr_matrix:
+        """Derivative of the force, all control points, ordered row, column, component, N/m."""
+        ...
+
+    def evolved(self, points: np.ndarray, state: Any) -> Any:
+        """State once the shape has been reached from `state`."""
+        ...
+
+
+class Problem:
+    """A shell and what acts on it.
+
+    Parameters
+    ----------
+    shell : Shell
+    others : Term
+        Further terms.
+
+    Attributes
+    ----------
+    shell : Shell
+    terms : tuple of Term
+    energy_names : tuple of str
+        Of all terms, in their order.
+    state : tuple
+        One for each term; as last committed.
+    """
+
+    def __init__(self, shell: Shell, *others: Term):
+        self.shell = shell
+        self.terms: tuple[Term, ...] = (shell, *others)
+        self.energy_names = tuple(name for term in self.terms for name in term.energy_names)
+        self.state: tuple[Any, ...] = tuple(term.start() for term in self.terms)
+        self._before: tuple[Any, ...] | None = None
+
+    @property
+    def patch(self) -> Patch:
+        """That of the shell."""
+        return self.shell.patch
+
+    @property
+    def reference(self) -> np.ndarray:
+        """Stress-free control points of the shell, shape (3, rows, columns), m."""
+        return self.shell.reference
+
+    @property
+    def has_memory(self) -> bool:
+        """Whether any term depends on what has happened before."""
+        return any(state is not None for state in self.state)
+
+    def force(self, points: np.ndarray, out: np.ndarray) -> np.ndarray:
+        """Write the gradient of the potential energy, N; return the energies of all terms, J.
+
+        Parameters
+        ----------
+        points, out : ndarray, shape (3, rows, columns)
+        """
+        first, *rest = zip(self.terms, self.state, strict=True)
+        energies = first[0].force(points, out, first[1])
+        if not rest:
+            return energies
+        parts, share = [energies], np.empty_like(out)
+        for term, state in rest:
+            parts.append(term.force(points, share, state))
+            out += share
+        return np.concatenate(parts)
+
+    def value(self, points: np.ndarray) -> float:
+        """Potential energy, J."""
+        return float(self.force(points, np.empty_like(points)).sum())
+
+    def tangent(self, points: np.ndarray) -> sparse.csr_matrix:
+        """Second derivative of the potential energy, N/m; of any sparsity, symmetric."""
+        matrices = [t.tangent(points, s) for t, s in zip(self.terms, self.state, strict=True)]
+        return sum(matrices[1:], start=matrices[0])
+
+    def commit(self, points: np.ndarray) -> None:
+        """Let every term take note that the shape has been reached."""
+        self._before = self.state
+        self.state = tuple(
+            t.evolved(points, s) for t, s in zip(self.terms, self.state, strict=True)
+        )
+
+    def roll_back(self) -> None:
+        """Take the last `commit` back.
+
+        Raises
+        ------
+        ValueError
+            If there is none, or it has been taken back already.
+        """
+        if self._before is None:
+            raise ValueError("there is nothing to roll back: no shape has been committed")
+        self.state, self._before = self._before, None

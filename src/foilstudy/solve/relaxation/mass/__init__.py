@@ -1,0 +1,27 @@
+"""Mass scalings of the relaxation: one file each, all of the protocol `MassScaling`."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+
+from foilstudy.model.shell.section import Section
+
+__all__ = ["MassScaling", "Mass"]
+
+
+class Mass(Protocol):
+    """A fictitious mass matrix of the free control points, for a pseudo-time step of 1."""
+
+    def velocity(self, momentum: np.ndarray) -> np.ndarray:
+        """Solve M v = momentum; arrays of shape (3, free rows, columns)."""
+        ...
+
+
+class MassScaling(Protocol):
+    """Chooses the fictitious mass of a sheet."""
+
+    def start(self, section: Section) -> Mass:
+        """The mass of a sheet with this section."""
+        ...

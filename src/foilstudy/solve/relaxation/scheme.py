@@ -1,0 +1,57 @@
+"""The fictitious dynamics of a relaxation: as a specification, and at work on one sheet."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from foilstudy.base.spec import choice_field
+from foilstudy.solve.choices import DAMPINGS, MASSES
+from foilstudy.solve.problem import Problem
+from foilstudy.solve.relaxation.damping import Damper, Damping
+from foilstudy.solve.relaxation.damping.adaptive_viscous import AdaptiveViscousDamping
+from foilstudy.solve.relaxation.mass import Mass, MassScaling
+from foilstudy.solve.relaxation.mass.spectral import SpectralMassScaling
+
+RAMP_DAMPING, RELAXATION_DAMPING = 0.5, 0.06
+"""Share of the critical damping of the current motion, while the ring moves and after. The Rayleigh
+quotient overestimates the slowest mode, so that less damping settles sooner (docs/method.md)."""
+
+
+@dataclass(frozen=True)
+class Scheme:
+    """A mass scaling, and a damping for each of the two phases; nothing in it changes.
+
+    Attributes
+    ----------
+    mass : MassScaling
+    ramp_damping, relaxation_damping : Damping
+    """
+
+    mass: MassScaling = choice_field(MASSES, SpectralMassScaling)
+    ramp_damping: Damping = choice_field(DAMPINGS, lambda: AdaptiveViscousDamping(RAMP_DAMPING))
+    relaxation_damping: Damping = choice_field(
+        DAMPINGS, lambda: AdaptiveViscousDamping(RELAXATION_DAMPING)
+    )
+
+    def start(self, problem: Problem) -> Motion:
+        """Fresh mass and dampers for one run."""
+        return Motion(
+            self.mass.start(problem.shell.section),
+            self.ramp_damping.start(),
+            self.relaxation_damping.start(),
+        )
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A scheme at work. Its dampers remember, so that one run goes on where it was left.
+
+    Attributes
+    ----------
+    mass : Mass
+    ramp_damper, relaxation_damper : Damper
+    """
+
+    mass: Mass
+    ramp_damper: Damper
+    relaxation_damper: Damper

@@ -1,0 +1,153 @@
+"""Every quantity of a realisation, declared once: for its record and for the cube."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from foilstudy.base.record import Quantity
+
+_DIRECTION = ("direction",)
+_DYNAMIC = ("definition", "direction", "frequency")
+_CONTROL = ("component", "row", "column")
+_NODE = ("component", "node_row", "node_column")
+_HISTORY = ("history",)
+
+
+@dataclass(frozen=True)
+class Declared:
+    """Unit and meaning of a quantity, and what it is in the cube.
+
+    Attributes
+    ----------
+    units, words : str
+        In the record; SI.
+    dims : tuple of str
+        Beyond the realisation.
+    in_cube : bool
+    cube_units : str
+        Where the cube has another unit.
+    cube_scale : float
+        From the one to the other.
+    """
+
+    units: str
+    words: str
+    dims: tuple[str, ...] = ()
+    in_cube: bool = True
+    cube_units: str = ""
+    cube_scale: float = 1.0
+
+
+def _length(words: str) -> Declared:
+    """A length in m that the cube gives in mm."""
+    return Declared("m", words, cube_units="mm", cube_scale=1e3)
+
+
+def _record_only(units: str, words: str, dims: tuple[str, ...]) -> Declared:
+    return Declared(units, words, dims, in_cube=False)
+
+
+QUANTITIES: dict[str, Declared] = {
+    "static_stiffness": Declared("N/m", "static stiffness, other motions held", _DIRECTION),
+    "static_stiffness_free": Declared("N/m", "static stiffness, other motions free", _DIRECTION),
+    "static_stiffness_converged": Declared(
+        "N/m", "static stiffness of the same shape, extrapolated to element size zero", _DIRECTION
+    ),
+    "static_stiffness_mesh_error": Declared(
+        "N/m", "estimated mesh error of static_stiffness_converged", _DIRECTION
+    ),
+    "prestressed_stiffness": Declared(
+        "N/m", "static stiffness at the stressed equilibrium, other motions held", _DIRECTION
+    ),
+    "prestressed_stiffness_converged": Declared(
+        "N/m", "pre-stressed stiffness, relaxed again on the finest mesh", _DIRECTION
+    ),
+    "prestressed_stiffness_mesh_error": Declared(
+        "N/m", "step of prestressed_stiffness_converged from the next coarser mesh", _DIRECTION
+    ),
+    "refined_static_stiffness": Declared(
+        "N/m", "static stiffness of the shape relaxed again on the finest mesh", _DIRECTION
+    ),
+    "interface_stiffness": Declared(
+        "N/m, N, N m",
+        "stress-free interface stiffness, rotations in rad",
+        ("interface_dof", "interface_dof_in"),
+    ),
+    "dynamic_stiffness_re": Declared("N/m", "dynamic stiffness, real part", _DYNAMIC),
+    "dynamic_stiffness_im": Declared("N/m", "dynamic stiffness, imaginary part", _DYNAMIC),
+    "eigenfrequency": Declared("Hz", "eigenfrequency, rings clamped", ("mode",)),
+    "first_eigenfrequency": Declared("Hz", "first eigenfrequency, rings clamped"),
+    "membrane_energy": Declared("J", "membrane energy"),
+    "bending_energy": Declared("J", "bending energy"),
+    "stabilisation_energy": Declared("J", "stabilisation energy"),
+    "reaction_force": Declared("N", "axial force of the crumpled foil on the top ring"),
+    "radial_displacement_min": _length("smallest radial displacement"),
+    "radial_displacement_max": _length("largest radial displacement"),
+    "radial_displacement_rms": _length("root mean square radial displacement"),
+    "equilibrium_residual": Declared("1", "force on the free foil over force on the rings"),
+    "negative_eigenvalues": Declared("1", "negative eigenvalues of the tangent at the end"),
+    "steps": Declared("1", "pseudo-time steps, ramp included"),
+    "newton_steps": Declared("1", "quasi-Newton steps after them"),
+    "hessians": Declared("1", "tangents formed for them"),
+    "refined_strain_energy": Declared("J", "strain energy, relaxed again on the finest mesh"),
+    "refined_element_size": _length("element size of the finest relaxed mesh"),
+    "refined_residual": Declared("1", "equilibrium residual on the finest relaxed mesh"),
+    "refined_negative_eigenvalues": Declared("1", "negative eigenvalues on that mesh"),
+    "refined_steps": Declared("1", "pseudo-time steps on that mesh"),
+    "element_size": _length("element size of the crumpled mesh"),
+    "beyond_yield_share": Declared("1", "share of the surface beyond the yield stress"),
+    "self_crossing_share": Declared("1", "share of the surface crossed by another part"),
+    "mode_count": Declared(
+        "1", "eigenfrequencies, rings clamped, below a frequency", ("frequency",)
+    ),
+    "reduced_coordinates": Declared("1", "coordinates of the reduced model"),
+    "reduction_error": Declared("1", "estimated largest relative error of the reduction"),
+    "valid_to_frequency": Declared("Hz", "frequency up to which that meets the tolerance"),
+    "seconds_crumple": Declared("s", "time of crumpling"),
+    "seconds_static": Declared("s", "time of the static stiffness"),
+    "seconds_dynamic": Declared("s", "time of the dynamic stiffness"),
+    "seconds_refined": Declared("s", "time of relaxing again on refined meshes"),
+    "peak_memory": Declared("MB", "peak memory of the response job"),
+    "frequency": _record_only("Hz", "frequency", ("frequency",)),
+    "mode_shape": _record_only(
+        "m/sqrt(kg m2)",
+        "mass-normalised displacement of the surface at the knots, clamped rings",
+        ("shape_mode", "component", "node_row", "node_column"),
+    ),
+    "control_points": _record_only("m", "control points, crumpled", _CONTROL),
+    "reference_control_points": _record_only("m", "control points, stress-free", _CONTROL),
+    "surface": _record_only("m", "surface points at the knots, crumpled", _NODE),
+    "reference_surface": _record_only("m", "surface points at the knots, stress-free", _NODE),
+    "radial_displacement": _record_only("m", "radial displacement", _NODE[1:]),
+    "history_step": _record_only("1", "pseudo-time step", _HISTORY),
+    "history_height": _record_only("m", "height between the rings", _HISTORY),
+    "history_reaction_force": _record_only(
+        "N", "axial force of the foil on the top ring", _HISTORY
+    ),
+    "history_membrane_energy": _record_only("J", "membrane energy", _HISTORY),
+    "history_bending_energy": _record_only("J", "bending energy", _HISTORY),
+    "history_stabilisation_energy": _record_only("J", "stabilisation energy", _HISTORY),
+    "history_kinetic_energy": _record_only("J", "kinetic energy of the fictitious mass", _HISTORY),
+    "history_residual": _record_only(
+        "1", "norm of the force on the free foil over that on the rings", _HISTORY
+    ),
+}
+"""By name, in the order of the cube."""
+
+
+def quantities(values: Mapping[str, np.ndarray | float]) -> dict[str, Quantity]:
+    """Values with what is declared of them.
+
+    Raises
+    ------
+    KeyError
+        If a value is not declared.
+    """
+    return {
+        name: Quantity(value, declared.units, declared.words, declared.dims)
+        for name, value in values.items()
+        for declared in (QUANTITIES[name],)
+    }

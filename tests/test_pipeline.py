@@ -1,0 +1,170 @@
+"""Crumple in memory, in one call, and what is recorded of it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from conftest import FEP
+
+import foilstudy
+from foilstudy import Crumpled, Foil, Imperfection, Mesh, Method, crumple
+from foilstudy.base.record import read_record
+from foilstudy.base.spec import dumped, loaded, plain
+from foilstudy.config import load_config
+from foilstudy.config.foils import foil_of
+from foilstudy.config.scene import recipe_of
+from foilstudy.measure.choices import REDUCTIONS, STRESS_REMOVALS, STRUCTURAL_DAMPINGS
+from foilstudy.measure.dynamics import DynamicsOptions
+from foilstudy.model.imperfections import IMPERFECTIONS
+from foilstudy.model.materials import MATERIALS, material
+from foilstudy.model.shell.elements import ELEMENTS
+from foilstudy.model.shell.material import LAWS
+from foilstudy.solve.choices import DAMPINGS, MASSES, PATHS, SEARCHES
+from foilstudy.solve.equilibrium.settle import SettleOptions
+from foilstudy.solve.paths.relaxation import RelaxationPath
+from foilstudy.study.sweep.crumple import crumple_job
+
+FOIL = Foil(0.2, 0.15, 0.13, 500e-6, material("FEP"))
+COARSE = Mesh(15e-3)
+QUICK = Method(RelaxationPath(200))
+
+
+@pytest.fixture(scope="module")
+def crumpled():
+    return crumple(FOIL, COARSE, Imperfection(seed=3), QUICK)
+
+
+def test_one_call_gives_a_stable_equilibrium_that_says_what_it_is(crumpled):
+    assert (crumpled.status, crumpled.arrival.negative_eigenvalues) == ("converged", 0)
+    assert crumpled.points[2].max() - crumpled.points[2].min() < FOIL.reference_height
+    assert repr(crumpled) == (
+        "<Crumpled: 500 µm FEP, diameter 200 mm, 150 mm in a gap of 130 mm, 15 mm corner elements, "
+        "converged>"
+    )
+
+
+def test_measurements_follow_in_one_call_each(crumpled):
+    axial, radial = crumpled.stiffness()
+    assert 0 < axial and 0 < radial
+    limit = crumpled.mesh_limit(1)
+    assert np.array_equal(limit.levels[0], [axial, radial]) and len(limit.levels) == 2
+    assert (crumpled.prestressed_stiffness() < crumpled.stiffness()).all()
+    vibration = crumpled.vibration(DynamicsOptions(highest_hz=100.0, frequencies=5))
+    # at rest the transfer stiffness is the static one
+    quasi_static = vibration.dynamic_stiffness[0, :, 0].real
+    np.testing.assert_allclose(quasi_static, crumpled.stiffness(), rtol=1e-2)
+    assert len(repr(vibration)) < 150 and len(repr(limit)) < 150
+
+
+def test_refined_it_has_the_same_surface_and_settles_lower(crumpled):
+    fine = crumpled.refined()
+    assert fine.energies().total != crumpled.energies().total
+    settled = fine.settled()
+    assert settled.status == "converged"
+    assert settled.energies().total < fine.energies().total
+
+
+def test_it_can_be_looked_at(crumpled):
+    axes = crumpled.plot()
+    (image,) = axes.images
+    assert image.get_array()[..., 3].max() > 0
+    assert axes.get_title().startswith("500 µm FEP")
+
+
+def test_a_job_records_what_the_call_returns(tmp_path):
+    """The study of one cell, and the same in memory, to the last bit; the file needs no task."""
+    study = load_config(
+        {
+            "sweep": {"thickness_um": [500], "reference_height_mm": [150], "realisations": 1},
+            "mesh": {"element_size_mm": 15, "element": "one_point"},
+            "relaxation": {"ramp_steps": 200},
+        }
+    )
+    task = study.crumple_task(study.cells()[0])
+    crumple_job(task, tmp_path / "crumple.nc")
+    foil, recipe = foil_of(task), recipe_of(task)
+    called = crumple(foil, recipe.mesh, recipe.imperfection, recipe.method)
+    back = Crumpled.recorded(tmp_path / "crumple.nc")
+    assert (back.foil, back.recipe) == (foil, recipe)
+    assert back.patch == called.patch and back.element == called.element
+    assert np.array_equal(back.points, called.points)
+    assert np.array_equal(back.reference, called.reference)
+    assert (back.status, back.message) == (called.status, called.message)
+    assert back.arrival.steps == called.arrival.steps
+    _, attributes = read_record(tmp_path / "crumple.nc")
+    assert type(task).model_validate_json(attributes["task"]) == task
+
+
+def test_what_is_no_crumple_is_refused(tmp_path):
+    study = load_config(
+        {
+            "sweep": {"thickness_um": [500], "reference_height_mm": [150], "realisations": 1},
+            "mesh": {"element_size_mm": 15},
+            "imperfection": {"amplitude_um": 1e6},
+            "relaxation": {"ramp_steps": 20, "relaxation_steps_max": 20},
+        }
+    )
+    crumple_job(study.crumple_task(study.cells()[0]), tmp_path / "crumple.nc")
+    with pytest.raises(ValueError, match=r"crumple\.nc: the realisation has left no shape \(div"):
+        Crumpled.recorded(tmp_path / "crumple.nc")
+
+
+METHODS = [
+    Method(),
+    Method(RelaxationPath(77, settling=SettleOptions(1e-6, search="quasi_newton"))),
+    FOIL,
+    Imperfection("smoothed", 1e-5, 0.015, 4),
+    Mesh(2.5e-3, "one_point"),
+    DynamicsOptions(reduction="guyan", cutoff_hz=100.0),
+]
+
+
+@pytest.mark.parametrize("spec", METHODS, ids=lambda spec: type(spec).__name__)
+def test_a_specification_comes_back_from_its_record(spec):
+    assert loaded(type(spec), dumped(spec)) == spec
+    hash(spec)  # nothing in it can change
+
+
+def test_a_record_of_another_release_is_refused():
+    content = dumped(FOIL).replace("gap_height", "gap")
+    with pytest.raises(ValueError, match="from another release: compute the record again"):
+        loaded(Foil, content)
+
+
+@pytest.mark.parametrize(
+    "registry",
+    [ELEMENTS, LAWS, IMPERFECTIONS, MASSES, DAMPINGS, SEARCHES, PATHS, STRESS_REMOVALS,
+     REDUCTIONS, STRUCTURAL_DAMPINGS],
+    ids=lambda registry: registry.kind,
+)  # fmt: skip
+def test_every_choice_can_be_loaded_and_knows_its_name(registry):
+    for name in registry:
+        choice = registry[name]
+        assert callable(choice)
+        assert getattr(choice, "kind", getattr(choice, "name", name)) == name
+    with pytest.raises(ValueError, match=f"is not a known {registry.kind}; use one of"):
+        registry["nothing"]
+
+
+def test_a_strategy_of_a_configuration_reaches_the_method():
+    assert plain(Method())["path"]["scheme"]["mass"] == {"kind": "spectral", "safety": 1.5}
+    study = load_config(
+        {
+            "sweep": {"thickness_um": [500], "reference_height_mm": [150]},
+            "relaxation": {"ramp_steps": 123, "check_interval": 7},
+        }
+    )
+    path = recipe_of(study.crumple_task(study.cells()[0])).method.path
+    assert (path.ramp_steps, path.check_interval) == (123, 7)
+
+
+def test_materials_are_known_by_name():
+    assert replace(material("FEP"), name="") == FEP
+    assert {material(name).name for name in MATERIALS} == set(MATERIALS)
+    with pytest.raises(ValueError, match="'tin' is not a known material; use one of FEP"):
+        material("tin")
+
+
+def test_the_face_of_the_package_lists_what_it_has():
+    assert set(foilstudy.__all__) <= set(dir(foilstudy))
+    assert all(getattr(foilstudy, name) is not None for name in foilstudy.__all__)
