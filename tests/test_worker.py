@@ -1,6 +1,7 @@
 """A job of the worker: as one of its own, and gone when the study or its client is."""
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -121,6 +122,12 @@ def test_a_job_finds_the_modules_of_the_worker_loaded(worker, tmp_path):
     assert run(worker, tmp_path, "import sys; print('this' in sys.modules)").stdout == "True\n"
 
 
+def test_the_worker_that_is_forked_has_one_thread(worker, tmp_path):
+    run(worker, tmp_path, "import xarray, statsmodels.api, matplotlib.pyplot, netCDF4")
+    content = "import os; print(len(os.listdir(f'/proc/{os.getppid()}/task')))"
+    assert run(worker, tmp_path, content).stdout == "1\n"
+
+
 def asleep(socket, folder):
     """Client of a job that sleeps, and the number of the process that does."""
     noted = folder / "process"
@@ -166,14 +173,16 @@ def test_worker_and_jobs_end_with_a_killed_study(tmp_path):
     wait_until(lambda: not Path(study.socket).parent.exists())
 
 
-def test_jobs_end_with_a_killed_worker(tmp_path):
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
+def test_jobs_end_with_a_killed_worker(tmp_path, number):
     study = Study()
     client, process = asleep(study.socket, tmp_path)
-    os.kill(study.worker, signal.SIGKILL)
+    os.kill(study.worker, number)
     wait_until(lambda: is_gone(process))
     _, said = client.communicate()
     assert client.returncode == 1
     assert said.startswith("script.py: the worker of the study ended before this job")
+    # the next ones do without
+    assert run(study.socket, tmp_path, "print('on its own')").stdout == "on its own\n"
     study.kill()
-    Path(study.socket).unlink()
-    Path(study.socket).parent.rmdir()
+    shutil.rmtree(Path(study.socket).parent, ignore_errors=True)

@@ -97,6 +97,7 @@ class _Worker:
     def serve(self) -> None:
         # Ctrl-C reaches the whole group: it ends the study, and that ends the worker.
         signal.signal(signal.SIGINT, signal.SIG_IGN)
+        signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # removes the socket on its way
         while self._serving:
             for key, _ in self._selector.select():
                 key.data()
@@ -179,6 +180,7 @@ def _carried_out(order: dict, streams: list[int]) -> int:
             os.dup2(stream, number)
         os.closerange(_STANDARD_STREAMS, os.sysconf("SC_OPEN_MAX"))  # of worker and other jobs
         signal.signal(signal.SIGINT, signal.default_int_handler)
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
         os.chdir(order["folder"])
         os.environ.clear()
         os.environ.update(order["environment"])
