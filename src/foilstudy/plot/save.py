@@ -36,6 +36,7 @@ def save(figure, stem, dpi: int = PNG_DPI) -> tuple[Path, Path]:
     savefig = styled(figure.savefig)
     with written_whole(png) as partial:
         _with_palette(savefig, dpi).save(partial, "png", optimize=True, dpi=(dpi, dpi))
+    figure.set_layout_engine("none")  # it is laid out now, which costs as much as drawing
     with written_whole(svg) as partial:
         savefig(partial, format="svg", dpi=dpi, metadata={"Date": None})
     return png, svg
@@ -48,7 +49,9 @@ def _with_palette(savefig, dpi: int):
     savefig(true_colours, format="png", dpi=dpi)
     image = Image.open(true_colours).convert("RGB")
     # Keeps the few dots of a strong colour, which a median cut merges with others.
-    return image.quantize(_COLOURS, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+    palette = image.quantize(_COLOURS, Image.Quantize.MAXCOVERAGE)
+    # Dithered, or else shaded surfaces show steps.
+    return image.quantize(palette=palette, dither=Image.Dither.FLOYDSTEINBERG)
 
 
 def inches_wide(png: Path) -> float:

@@ -14,6 +14,8 @@ _LARGEST_PANEL = 3.2
 _ROW_TITLE_WIDTH = 0.35
 _COLOUR_BAR_HEIGHT = 0.95
 _PANEL_MM = 230
+_PIXELS_PER_INCH = 150
+"""At least as many as the PNG has."""
 
 
 def draw_grid(crumples, column_titles=None, row_titles=None, captions=None):
@@ -34,8 +36,7 @@ def draw_grid(crumples, column_titles=None, row_titles=None, captions=None):
     rows, columns = len(crumples), max(map(len, crumples), default=0)
     panel_width = min(_LARGEST_PANEL, (PAGE_WIDTH - _ROW_TITLE_WIDTH) / columns)
     scale = published().colour_scale_mm
-    # Somewhat more pixels than the PNG has.
-    view = View(pixel_mm=_PANEL_MM / (panel_width * 200), colour_scale_mm=scale)
+    view = View(pixel_mm=_PANEL_MM / (panel_width * _PIXELS_PER_INCH), colour_scale_mm=scale)
     pictures = {
         crumple.path: render(read_shape(crumple), view)
         for row in crumples
