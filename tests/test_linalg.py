@@ -260,3 +260,28 @@ def test_no_mode_below_the_limit(solver):
     modes = modes_below(stiffness, mass, 1.0)
     assert modes.eigenvalues.shape == (0,)
     assert modes.shapes.shape == (stiffness.shape[0], 0)
+
+
+@pytest.mark.skipif(not pardiso.available(), reason="needs MKL")
+def test_a_kept_analysis_changes_no_bit():
+    """The second matrix of a pattern is factored with the analysis of the first."""
+    sheet = cylinder(20e-3)
+    rings = Rings.of(sheet.patch, sheet.reference)
+    points = sheet.reference * np.array([1.0, 1.0, 0.999])[:, None, None]
+    first, second = (
+        InterfaceSystem.split(sheet.tangent(p), rings).interior for p in (None, points)
+    )
+    probe = np.cos(np.arange(first.shape[0], dtype=float))
+    alone = factorise(second)
+    expected, inertia = alone.solve(probe), alone.negative_eigenvalues
+    del alone
+    pardiso._analysed.clear()  # leaks a little, on purpose: nothing is to be found
+    factor = factorise(first)
+    held = pardiso._Job(sparse.triu(first, format="csr"))
+    assert not any(job.takes(held) for job in pardiso._analysed)  # it is in use
+    del factor
+    assert any(job.takes(held) for job in pardiso._analysed)
+    again = factorise(second)
+    assert not any(job.takes(held) for job in pardiso._analysed)  # taken
+    assert np.array_equal(again.solve(probe), expected)
+    assert again.negative_eigenvalues == inertia

@@ -16,7 +16,7 @@ import scipy.sparse as sparse
 from foilstudy.linalg.errors import SolveError, refuse_complex
 
 _SYMMETRIC_INDEFINITE, _COMPLEX_SYMMETRIC = -2, 6
-_ANALYSE_AND_FACTOR, _SOLVE, _RELEASE = 12, 33, -1
+_ANALYSE_AND_FACTOR, _FACTOR, _SOLVE, _RELEASE_FACTORS, _RELEASE = 12, 22, 33, 0, -1
 _CBWR_AUTO = 2
 """Conditional numerical reproducibility: the fastest code of this machine, the same in every run.
 Named instruction sets are refused on other processors than Intel's."""
@@ -63,6 +63,14 @@ class _Job:
         # elastic stiffness does not need them.
         self.settings[[0, 1, 9, 20, 34]] = 1, 2, 8, 1, 1
 
+    def takes(self, other: _Job) -> bool:
+        """Whether the other matrix has the pattern of this one."""
+        return (
+            (self.size, self.kind) == (other.size, other.kind)
+            and np.array_equal(self.starts, other.starts)
+            and np.array_equal(self.columns, other.columns)
+        )
+
     def run(self, phase: int, rhs: np.ndarray, solution: np.ndarray) -> int:
         """Run one phase and return Pardiso's error code."""
         arrays = (self.handle, self.values, self.starts, self.columns, self.settings)
@@ -85,9 +93,33 @@ _POINTER = ctypes.c_void_p
 _DTYPES = {_SYMMETRIC_INDEFINITE: np.float64, _COMPLEX_SYMMETRIC: np.complex128}
 
 
-def _release(job: _Job) -> None:
+_analysed: list[_Job] = []
+"""Jobs whose factors are gone and whose analysis serves the next matrix of the same pattern."""
+_KEPT = 4
+
+
+def _job_for(upper: sparse.csr_matrix) -> tuple[_Job, int]:
+    """A job for a matrix, and the phase that factors it.
+
+    The analysis (ordering, structure of the factors) costs as much as the factors of a small mesh
+    and half of those of a large one. It depends on the pattern alone, and so do its bits.
+    """
+    new = _Job(upper)
+    for old in _analysed:
+        if old.takes(new):
+            _analysed.remove(old)
+            old.values = new.values
+            return old, _FACTOR
+    return new, _ANALYSE_AND_FACTOR
+
+
+def _give_back(job: _Job) -> None:
+    """Keep the analysis of a job, without its factors, unless others have come since."""
     empty = np.zeros(1)
-    job.run(_RELEASE, empty, empty)
+    job.run(_RELEASE_FACTORS, empty, empty)
+    _analysed.append(job)
+    if len(_analysed) > _KEPT:
+        _analysed.pop(0).run(_RELEASE, empty, empty)
 
 
 class PardisoFactorisation:
@@ -99,9 +131,9 @@ class PardisoFactorisation:
     def __init__(self, matrix: sparse.csr_matrix):
         upper = sparse.triu(matrix, format="csr")
         upper.sort_indices()
-        self._job = _Job(upper)
-        weakref.finalize(self, _release, self._job)
-        self._run(_ANALYSE_AND_FACTOR, np.zeros(self._job.size, dtype=self._job.values.dtype))
+        self._job, phase = _job_for(upper)
+        weakref.finalize(self, _give_back, self._job)
+        self._run(phase, np.zeros(self._job.size, dtype=self._job.values.dtype))
         if self._job.settings[13] > 0:
             raise SolveError("the matrix is singular: Pardiso had to perturb a pivot")
         real = self._job.kind == _SYMMETRIC_INDEFINITE
