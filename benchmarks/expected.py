@@ -37,7 +37,7 @@ from foilstudy.study.sweep.respond import respond_job
 
 ROOT = Path(__file__).parents[1]
 PHYSICS = ["seconds_crumple", "seconds_static", "seconds_dynamic"]
-GATHERED = ("cylinder", "cube", "tables", "figures_*", "report")
+GATHERED = ("cylinder", "cube", "tables", "figures/*", "report")
 
 
 @dataclass(frozen=True)

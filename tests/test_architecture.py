@@ -1,6 +1,7 @@
 """Arrows between the rooms of the package run one way."""
 
 import ast
+import re
 from pathlib import Path
 
 import pytest
@@ -77,3 +78,16 @@ def test_no_modules_import_each_other_in_a_circle():
         for name in leaves:
             del graph[name]
     assert not graph
+
+
+def test_the_page_shows_the_rooms_as_they_are():
+    page = (ROOT.parents[1] / "docs/architecture.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| `(\w+)` \| .* \| ([^|]*) \|$", page.split("## Four ideas")[0], re.M)
+    shown = {name: re.findall(r"`(\w+)`", imports) for name, imports in rows}
+    found = {
+        name: {room(other) for module in NAMES if room(module) == name
+               for other in imported(module, NAMES[module])} - {name}
+        for name in ORDER
+    }  # fmt: skip
+    assert tuple(shown) == ORDER
+    assert {name: set(imports) for name, imports in shown.items()} == found

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .options import Cores
+from .options import Cores, read_study
 
 if TYPE_CHECKING:
     from foilstudy.config import StudyConfig
@@ -28,10 +28,9 @@ def check(file: Path, /, *, cores: Cores = 2) -> None:
     file : Path
         YAML file of the study.
     """
-    from foilstudy.config import load_config
     from foilstudy.study.sweep.expected import expected
 
-    study = load_config(file)
+    study = read_study(file)
     cost = expected(study)
     lines = [f"{file}: no problem; results go to results/{study.study.name}.", ""]
     lines += (f"{name:10} {text}" for name, text in _resolved(study))

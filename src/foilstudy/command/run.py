@@ -9,7 +9,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from .options import Cores
+from .options import Cores, read_study
 
 __all__ = ["run", "study_folder"]
 
@@ -33,9 +33,7 @@ def run(
         For Snakemake, such as --dry-run, --forceall, or a target: verify, elements, convergence,
         dynamics.
     """
-    from foilstudy.config import load_config
-
-    load_config(file)  # says what is wrong with it before Snakemake loads
+    read_study(file)  # says what is wrong with it before Snakemake loads
     folder, config = study_folder(), file.resolve()
     snakemake = Path(sys.executable).with_name("snakemake")
     if not snakemake.is_file():

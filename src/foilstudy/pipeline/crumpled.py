@@ -156,7 +156,18 @@ class Crumpled(Shape):
 
     @classmethod
     def of_record(cls, values: dict[str, np.ndarray], attributes: dict[str, str]) -> Self:
-        """From the values and attributes of a record that holds a shape."""
+        """From the values and attributes of a record that holds a shape.
+
+        Raises
+        ------
+        ValueError
+            If the record does not say what it is of, as in releases before 0.3.
+        """
+        if missing := {"foil", *_RECIPE} - attributes.keys():
+            raise ValueError(
+                f"the record of the crumple does not say its {', '.join(sorted(missing))}; it is "
+                "from an earlier release: run the study again."
+            )
         foil = loaded(Foil, attributes["foil"])
         recipe = Recipe(*(loaded(kind, attributes[name]) for name, kind in _RECIPE.items()))
         points, reference = values["control_points"], values["reference_control_points"]

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
 
+from foilstudy.base.costs import Cost
 from foilstudy.solve.problem import Problem
 from foilstudy.solve.relaxation.loop import History
 
@@ -33,6 +35,8 @@ class Arrival:
         Pseudo-time steps with those of the ramp, quasi-Newton steps, tangents formed.
     history : History or None
         Along the way; None where there was no motion.
+    costs : mapping of str to Cost
+        Of the stages of the path, by their names.
     """
 
     status: str
@@ -44,6 +48,7 @@ class Arrival:
     newton_steps: int
     hessians: int
     history: History | None
+    costs: Mapping[str, Cost] = field(default_factory=dict)
 
 
 class Path(Protocol):

@@ -6,10 +6,12 @@ and its dampers go on from the relaxation into the settling.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from foilstudy.base.costs import Cost, measured
 from foilstudy.solve.equilibrium.settle import SettleOptions, SettleResult, settle
 from foilstudy.solve.paths import Arrival
 from foilstudy.solve.problem import Problem
@@ -44,31 +46,36 @@ class RelaxationPath:
         rule = StoppingRule(
             settling.switch_residual, settling.relaxation_steps_max, self.check_interval
         )
-        relaxed = relax(problem, motion, Ramp(shortening, self.ramp_steps), rule)
+        with measured() as relaxing:
+            relaxed = relax(problem, motion, Ramp(shortening, self.ramp_steps), rule)
         if relaxed.status == "diverged":
-            return _diverged(relaxed)
+            return _diverged(relaxed, {"relaxing": relaxing})
         left = settling.relaxation_steps_max - (relaxed.steps - self.ramp_steps)
-        settled = settle(
-            problem, motion, relaxed.points, replace(settling, relaxation_steps_max=left)
-        )
-        return _arrived(settled, relaxed)
+        settling = replace(settling, relaxation_steps_max=left)
+        with measured() as cost:
+            settled = settle(problem, motion, relaxed.points, settling)
+        return _arrived(settled, relaxed, {"relaxing": relaxing, "settling": cost})
 
     def settle(self, problem: Problem, points: np.ndarray) -> Arrival:
         """See `Path`."""
-        return _arrived(settle(problem, self.scheme.start(problem), points, self.settling), None)
+        with measured() as cost:
+            settled = settle(problem, self.scheme.start(problem), points, self.settling)
+        return _arrived(settled, None, {"settling": cost})
 
 
-def _diverged(relaxed: RelaxationResult) -> Arrival:
+def _diverged(relaxed: RelaxationResult, costs: Mapping[str, Cost]) -> Arrival:
     return Arrival(
         relaxed.status, relaxed.message, relaxed.points, relaxed.residual, None,
-        relaxed.steps, 0, 0, relaxed.history,
+        relaxed.steps, 0, 0, relaxed.history, costs,
     )  # fmt: skip
 
 
-def _arrived(settled: SettleResult, relaxed: RelaxationResult | None) -> Arrival:
+def _arrived(
+    settled: SettleResult, relaxed: RelaxationResult | None, costs: Mapping[str, Cost]
+) -> Arrival:
     before = relaxed.steps if relaxed else 0
     return Arrival(
         settled.status, settled.message, settled.points, settled.residual,
         settled.negative_eigenvalues, before + settled.relaxation_steps, settled.newton_steps,
-        settled.hessians, relaxed.history if relaxed else None,
+        settled.hessians, relaxed.history if relaxed else None, costs,
     )  # fmt: skip

@@ -47,23 +47,22 @@ def imperfect(case: Case) -> Crumpled:
 
 def settled(case: Case) -> tuple[Crumpled, dict]:
     """Crumple a case to a stable equilibrium; the shape and how it was reached."""
-    numbers: dict = {"ramp_steps": RAMP_STEPS}
-    with _timed(numbers, "crumpling"):
-        crumpled = crumple(*recipe(case))
-    return crumpled, numbers | _reached(crumpled, RAMP_STEPS)
+    crumpled = crumple(*recipe(case))
+    return crumpled, _reached(crumpled, RAMP_STEPS)
 
 
 def settled_on(crumpled: Crumpled) -> tuple[Crumpled, dict]:
     """Let a refined crumple settle on its mesh."""
-    numbers: dict = {"ramp_steps": 0}
-    with _timed(numbers, "crumpling"):
-        crumpled = crumpled.settled()
-    return crumpled, numbers | _reached(crumpled, 0)
+    crumpled = crumpled.settled()
+    return crumpled, _reached(crumpled, 0)
 
 
 def _reached(crumpled: Crumpled, ramp_steps: int) -> dict:
     arrival = crumpled.arrival
-    return {
+    costs = {f"seconds_{stage}": cost.seconds for stage, cost in arrival.costs.items()}
+    costs |= {f"cpu_seconds_{stage}": cost.cpu_seconds for stage, cost in arrival.costs.items()}
+    return costs | {
+        "ramp_steps": ramp_steps,
         "status": arrival.status,
         "message": arrival.message,
         "residual": arrival.residual,

@@ -10,7 +10,9 @@ import numpy as np
 
 from foilstudy.base.outcome import USABLE
 from foilstudy.base.record import MACHINE_FAULTS, read_record, write_record
+from foilstudy.base.spec import dumped
 from foilstudy.config import RefineTask
+from foilstudy.config.foils import foil_of
 from foilstudy.config.scene import method_of
 from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.method import Method
@@ -38,8 +40,13 @@ def refine_job(task: RefineTask, crumple_path: Path, path: Path) -> None:
         except Exception as error:  # a study must survive any one realisation
             traceback.print_exc()
             status, message = "failed", f"{type(error).__name__}: {error}"
-    described = {"status": status, "message": message, "task": task.model_dump_json()}
-    write_record(path, quantities(values), described | {"foil": attributes["foil"]})
+    described = {
+        "status": status,
+        "message": message,
+        "task": task.model_dump_json(),
+        "foil": dumped(foil_of(task)),
+    }
+    write_record(path, quantities(values), described)
     print(f"{status}: {message}")
 
 

@@ -11,7 +11,9 @@ import numpy as np
 from foilstudy.base.costs import peak_memory_mb
 from foilstudy.base.outcome import USABLE
 from foilstudy.base.record import MACHINE_FAULTS, read_record, write_record
+from foilstudy.base.spec import dumped
 from foilstudy.config import ResponseTask
+from foilstudy.config.foils import foil_of
 from foilstudy.config.scene import dynamics_of
 from foilstudy.measure.dynamics import DynamicsOptions, Structure
 from foilstudy.measure.stiffness import fixed_stiffness, free_stiffness
@@ -41,8 +43,13 @@ def respond_job(task: ResponseTask, crumple_path: Path, path: Path) -> None:
             traceback.print_exc()
             status, message = "failed", f"{type(error).__name__}: {error}"
     values["peak_memory"] = peak_memory_mb()
-    described = {"status": status, "message": message, "task": task.model_dump_json()}
-    write_record(path, quantities(values), described | {"foil": attributes["foil"]})
+    described = {
+        "status": status,
+        "message": message,
+        "task": task.model_dump_json(),
+        "foil": dumped(foil_of(task)),
+    }
+    write_record(path, quantities(values), described)
     print(_summary(values) if "static_stiffness" in values else f"{status}: {message}")
 
 
