@@ -75,7 +75,7 @@ def kernel_rows() -> list[tuple[str, str, str]]:
     shell, patch = start.stressed, start.patch
     points = start.reference + 1e-3 * np.random.default_rng(0).standard_normal(patch.shape)
     force = np.empty_like(points)
-    mass = SpectralMassScaling().start(shell.section)
+    mass = SpectralMassScaling().start(Problem(shell))
     momentum = np.ascontiguousarray(force[:, 2:-2])
     elements = patch.elements_around * patch.elements_along
     per_force = median_seconds(lambda: shell.force(points, force), 200) / elements

@@ -52,10 +52,10 @@ class Slider:
         return state + np.sign(s := self._stretch(points, state)) * max(abs(s) - most, 0.0)
 
 
-def sliding(sheet, yield_force, stiffness=2e3):
+def sliding(section, yield_force, stiffness=2e3):
     """A slider on the middle of a sheet."""
-    row, column = sheet.patch.rows // 2, sheet.patch.columns // 3
-    return Slider(row, column, stiffness, yield_force, float(sheet.reference[2, row, column]))
+    row, column = section.patch.rows // 2, section.patch.columns // 3
+    return Slider(row, column, stiffness, yield_force, float(section.reference[2, row, column]))
 
 
 def flat(field):
@@ -79,7 +79,7 @@ def test_gradient_of_the_sum_is_the_derivative_of_its_value(mixed):
     energies = problem.force(points, force)
     assert problem.energy_names == (
         *("membrane", "bending", "stabilisation"),
-        *("load", "load", "slider"),
+        *("load", "load_2", "slider"),
     )
     assert energies.shape == (6,) and energies.sum() == pytest.approx(problem.value(points))
     direction = np.random.default_rng(1).standard_normal(points.shape)

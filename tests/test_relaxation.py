@@ -69,7 +69,7 @@ def test_spectral_solution_equals_the_dense_one(columns, along, thickness):
     momentum = np.random.default_rng(0).standard_normal((3, patch.rows - 4, columns))
     dense = dense_mass(sheet, SAFETY)
     expected = np.linalg.solve(dense, momentum.reshape(3, -1).T).T.reshape(momentum.shape)
-    velocity = SpectralMassScaling(SAFETY).start(sheet.section).velocity(momentum)
+    velocity = SpectralMassScaling(SAFETY).start(Problem(sheet)).velocity(momentum)
     tolerance = 10 * np.finfo(float).eps * np.linalg.cond(dense) * np.abs(expected).max()
     np.testing.assert_allclose(velocity, expected, rtol=0, atol=tolerance)
 
@@ -78,7 +78,7 @@ def largest_frequency_squared(sheet, safety, iterations=300):
     """Largest eigenvalue of M^-1 K by power iteration, from below."""
     rows, columns = sheet.patch.rows, sheet.patch.columns
     stiffness = sheet.tangent()
-    mass = SpectralMassScaling(safety).start(sheet.section)
+    mass = SpectralMassScaling(safety).start(Problem(sheet))
     motion = np.zeros((3, rows, columns))
     motion[:, FREE] = np.random.default_rng(0).standard_normal(motion[:, FREE].shape)
     for _ in range(iterations):

@@ -46,15 +46,18 @@ def restored(kind: type[T], content: dict[str, Any]) -> T:
     hints = get_type_hints(kind)
     known = {item.name: item for item in fields(kind)}
     content = {name: value for name, value in content.items() if name != "kind" or "kind" in known}
+    refusal = ValueError(
+        f"a recorded {kind.__name__} has the fields {', '.join(content)}, not {', '.join(known)}; "
+        "it is from another release: compute the record again."
+    )
     if content.keys() != known.keys():
-        raise ValueError(
-            f"a recorded {kind.__name__} has the fields {', '.join(content)}, not "
-            f"{', '.join(known)}; it is from another release: compute the record again."
-        )
+        raise refusal
     values = {}
     for name, value in content.items():
         registry = known[name].metadata.get(_REGISTRY)
         if registry is not None:
+            if not isinstance(value, dict) or value.get("kind") not in registry:
+                raise refusal
             value = restored(registry[value["kind"]], value)
         elif is_dataclass(hints[name]):
             value = restored(hints[name], value)

@@ -16,6 +16,7 @@ def material_of(section: MaterialSection) -> Material:
         density=section.density_kg_m3,
         yield_stress=section.yield_stress_mpa * 1e6,
         name=section.name,
+        law=section.law,
     )
 
 

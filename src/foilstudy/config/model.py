@@ -258,8 +258,6 @@ class StudyConfig(Section):
         return RefineTask(
             sheet=self.sheet,
             material=self.material,
-            relaxation=self.relaxation,
-            method=self.method,
             refinements=self.stiffness.relaxed_refinements,
             thickness_um=cell.thickness_um,
             reference_height_mm=cell.reference_height_mm,

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from foilstudy.config.mesh import Mesh as MeshSection
 from foilstudy.config.sections import Dynamics
-from foilstudy.config.tasks import CrumpleTask, RefineTask
+from foilstudy.config.tasks import CrumpleTask
 from foilstudy.measure.choices import STRESS_REMOVALS, STRUCTURAL_DAMPINGS
 from foilstudy.measure.dynamics import DynamicsOptions
 from foilstudy.model.foil import Imperfection
 from foilstudy.pipeline.crumpled import Recipe
 from foilstudy.pipeline.method import Mesh, Method
-from foilstudy.solve.choices import DAMPINGS, MASSES, PATHS
+from foilstudy.solve.choices import PATHS
 from foilstudy.solve.equilibrium.settle import SettleOptions
-from foilstudy.solve.relaxation.scheme import RAMP_DAMPING, RELAXATION_DAMPING, Scheme
+from foilstudy.solve.relaxation.scheme import Scheme
 
 
 def recipe_of(task: CrumpleTask) -> Recipe:
@@ -32,17 +32,20 @@ def mesh_of(section: MeshSection) -> Mesh:
     return Mesh(section.element_size_mm * 1e-3, section.element)
 
 
-def method_of(task: CrumpleTask | RefineTask) -> Method:
+def method_of(task: CrumpleTask) -> Method:
     """How the foil of a task is crumpled."""
     method, relaxation = task.method, task.relaxation
-    damping = DAMPINGS[method.damping]
-    scheme = Scheme(MASSES[method.mass](), damping(RAMP_DAMPING), damping(RELAXATION_DAMPING))
     settling = SettleOptions(
         residual_tolerance=relaxation.residual_tolerance,
         relaxation_steps_max=relaxation.relaxation_steps_max,
         search=method.search,
     )
-    path = PATHS[method.path](relaxation.ramp_steps, scheme, settling, relaxation.check_interval)
+    path = PATHS[method.path].for_study(
+        relaxation.ramp_steps,
+        Scheme.named(method.mass, method.damping),
+        settling,
+        relaxation.check_interval,
+    )
     return Method(path, STRESS_REMOVALS[method.stress_removal]())
 
 

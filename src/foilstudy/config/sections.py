@@ -22,6 +22,7 @@ from foilstudy.measure.choices import (
 )
 from foilstudy.model.imperfections import IMPERFECTIONS
 from foilstudy.model.materials import MATERIALS
+from foilstudy.model.shell.material import LAWS
 from foilstudy.solve.choices import DAMPINGS, MASSES, PATHS, SEARCHES
 
 CORRELATION_LENGTH_DEFAULT_MM = 15.0
@@ -81,7 +82,7 @@ def _material_schema(schema: dict[str, Any]) -> None:
 
 
 class Material(Section):
-    """Isotropic linear elastic foil material.
+    """Isotropic foil material.
 
     A known name fills the constants; any constant given beside it takes precedence. Another name
     needs all four constants.
@@ -92,6 +93,7 @@ class Material(Section):
     name: str = unit_field(
         "text", "Name of a known material (see below), or any other name.", "FEP", min_length=1
     )
+    law: choice_of(LAWS) = choice_field(LAWS, "elastic")
     youngs_modulus_mpa: float = unit_field("MPa", "Young's modulus.", gt=0, le=2e6)
     poisson_ratio: float = unit_field("1", "Poisson's ratio.", gt=-1, le=0.5)
     density_kg_m3: float = unit_field("kg/m3", "Density.", gt=0, le=30_000)

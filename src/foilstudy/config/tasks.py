@@ -50,8 +50,6 @@ class CrumpleTask(_Task):
 class RefineTask(_Task):
     """Relax one crumpled realisation again on refined meshes."""
 
-    relaxation: Relaxation
-    method: Method
     refinements: int = Field(ge=1)
 
 

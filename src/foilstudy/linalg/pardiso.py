@@ -56,6 +56,7 @@ class _Job:
         self.values = np.ascontiguousarray(upper.data, dtype=_DTYPES[self.kind])
         self.starts = upper.indptr.astype(np.int32)
         self.columns = upper.indices.astype(np.int32)
+        self.failed = False
         self.handle = np.zeros(64, dtype=np.int64)
         self.settings = np.zeros(64, dtype=np.int32)
         # own settings; METIS ordering; tiny pivots perturbed at 1e-8 of the norm; 1x1 and 2x2
@@ -86,6 +87,7 @@ class _Job:
             settings, quiet, rhs.ctypes.data_as(_POINTER), solution.ctypes.data_as(_POINTER),
             ctypes.byref(error),
         )  # fmt: skip
+        self.failed = self.failed or error.value != 0
         return error.value
 
 
@@ -105,8 +107,8 @@ def _job_for(upper: sparse.csr_matrix) -> tuple[_Job, int]:
     and half of those of a large one. It depends on the pattern alone, and so do its bits.
     """
     new = _Job(upper)
-    for old in _analysed:
-        if old.takes(new):
+    for old in tuple(_analysed):
+        if old.takes(new) and old in _analysed:
             _analysed.remove(old)
             old.values = new.values
             return old, _FACTOR
@@ -116,6 +118,9 @@ def _job_for(upper: sparse.csr_matrix) -> tuple[_Job, int]:
 def _give_back(job: _Job) -> None:
     """Keep the analysis of a job, without its factors, unless others have come since."""
     empty = np.zeros(1)
+    if job.failed:
+        job.run(_RELEASE, empty, empty)
+        return
     job.run(_RELEASE_FACTORS, empty, empty)
     _analysed.append(job)
     if len(_analysed) > _KEPT:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Material:
-    """Linear elastic isotropic material.
+    """Isotropic material.
 
     Attributes
     ----------
@@ -20,6 +20,8 @@ class Material:
         Pa; only used to report which share of the surface a linear elastic model overloads.
     name : str
         For people; it decides nothing.
+    law : str
+        A name of `foilstudy.model.shell.material.LAWS`.
     """
 
     youngs_modulus: float
@@ -27,6 +29,7 @@ class Material:
     density: float
     yield_stress: float
     name: str = ""
+    law: str = "elastic"
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,6 @@ from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.model.imperfections.cylinder import imperfect_cylinder
 from foilstudy.pipeline.crumpled import Crumpled, Recipe
 from foilstudy.pipeline.method import Mesh, Method
-from foilstudy.solve.problem import Problem
 
 
 def crumple(
@@ -38,7 +37,7 @@ def crumple(
         If the mesh cannot follow the imperfection, or a name is unknown.
     """
     start = uncrumpled(foil, mesh, imperfection, method)
-    arrival = start.method.path.follow(Problem(start.stressed), foil.shortening)
+    arrival = start.method.path.follow(start.problem(), foil.shortening)
     return replace(start, points=arrival.points, arrival=arrival)
 
 

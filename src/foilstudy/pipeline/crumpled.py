@@ -79,10 +79,17 @@ class Crumpled(Shape):
         """The shell that the recipe calls stress-free in this shape."""
         return super().relieved(removal or self.method.stress_removal)
 
+    def problem(self) -> Problem:
+        """The potential energy of the foil, at the state in which it has arrived."""
+        problem = super().problem()
+        if self.arrival and self.arrival.state:
+            problem.state = self.arrival.state
+        return problem
+
     def settled(self, method: Method | None = None) -> Self:
         """The nearest stable equilibrium, for a shape that was refined or came from elsewhere."""
         path = (method or self.method).path
-        arrival = path.settle(Problem(self.stressed), self.points)
+        arrival = path.settle(self.problem(), self.points)
         return replace(self, points=arrival.points, arrival=arrival)
 
     def stiffness(self) -> np.ndarray:

@@ -12,7 +12,10 @@ from foilstudy.measure.stiffness.stress_removal import Reset, StressRemoval
 from foilstudy.model.foil import Foil
 from foilstudy.model.patch import Patch, refine
 from foilstudy.model.shell.elements.protocol import Element
+from foilstudy.model.shell.material import LAWS
+from foilstudy.model.shell.section import Section
 from foilstudy.model.shell.shell import Energies, Shell
+from foilstudy.solve.problem import Problem
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -41,10 +44,14 @@ class Shape:
     @cached_property
     def stressed(self) -> Shell:
         """The shell as it is: stress-free before it was crumpled."""
-        foil = self.foil
-        return Shell.elastic(
-            self.patch, self.reference, foil.material, foil.thickness, self.element
-        )
+        material = self.foil.material
+        law = LAWS[material.law](material)
+        return Shell(Section(self.patch, self.reference, self.foil.thickness, law), self.element)
+
+    def problem(self) -> Problem:
+        """The potential energy of the foil: its shell, and what its law adds to that."""
+        section = self.stressed.section
+        return Problem(self.stressed, *section.law.terms(section))
 
     def relieved(self, removal: StressRemoval | None = None) -> Shell:
         """The shell that is stress-free in this shape."""

@@ -1,7 +1,7 @@
 """A problem: the potential energy of a sheet as a sum of terms, over an explicit state.
 
-Relaxation, minimisation and stiffness take a problem and know nothing of what it is made of. The
-shell is the first term; loads, contact or the stress of a plastic foil are further ones. A term
+Relaxation and minimisation take a problem and know nothing of what it is made of. The shell is the
+first term; loads, contact or the stress of a plastic foil are further ones. A term
 without memory has the state None. One with memory is evaluated at the state that was last
 committed; `commit` lets every term take note of a shape that has been reached, and `roll_back`
 takes the last of them back.
@@ -75,7 +75,7 @@ class Problem:
     shell : Shell
     terms : tuple of Term
     energy_names : tuple of str
-        Of all terms, in their order.
+        Of all terms, in their order; the first ones are the shell's.
     state : tuple
         One for each term; as last committed.
     """
@@ -83,7 +83,12 @@ class Problem:
     def __init__(self, shell: Shell, *others: Term):
         self.shell = shell
         self.terms: tuple[Term, ...] = (shell, *others)
-        self.energy_names = tuple(name for term in self.terms for name in term.energy_names)
+        names = [name for term in self.terms for name in term.energy_names]
+        # a second one of a name is told apart
+        self.energy_names = tuple(
+            f"{name}_{k + 1}" if (k := names[:i].count(name)) else name
+            for i, name in enumerate(names)
+        )
         self.state: tuple[Any, ...] = tuple(term.start() for term in self.terms)
         self._before: tuple[Any, ...] | None = None
 

@@ -9,7 +9,7 @@ still snaps after many steps is minimised all the way: slower, but each step low
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sparse
@@ -62,7 +62,7 @@ class HeldSheet:
         """Potential energy (J) and force on the free control points (N)."""
         energies = self._problem.force(self.points(q), self._force)
         rings = self._force[:, :RING_ROWS], self._force[:, -RING_ROWS:]
-        self.ring_force, self._at = float(np.linalg.norm(np.stack(rings))), q
+        self.ring_force, self._at = float(np.linalg.norm(np.stack(rings))), q.copy()
         return float(energies.sum()), self.unknowns(self._force)
 
     def hessian(self, q: np.ndarray) -> sparse.csr_matrix:
@@ -73,7 +73,7 @@ class HeldSheet:
 
     def ring_force_at(self, q: np.ndarray) -> float:
         """Norm of the force on the rings, N: the scale of residuals."""
-        if self._at is not q:
+        if self._at is None or not np.array_equal(self._at, q):
             self.value_and_gradient(q)
         return self.ring_force
 
@@ -174,37 +174,39 @@ def settle(
         most = options.hessians_last if last else options.hessians_per_round
         points, polished = _polish(problem, points, options, most)
         hessians, newton_steps = hessians + polished.iterations, newton_steps + polished.steps
-        if polished.status == "converged" and not _comes_to_rest(problem, points, options):
+        if polished.status != "converged":
+            if last:
+                break
             continue
-        if polished.status == "converged" or last:
-            break
-    status = "converged" if polished.status == "converged" else "not_converged"
-    residual = polished.residual
-    if status == "converged" and problem.has_memory:
-        residual = _residual(problem, points)
-        if residual > options.residual_tolerance:
-            status = "not_converged"
+        residual = _committed(problem, points, polished.residual)
+        if residual <= options.residual_tolerance:
+            return SettleResult(
+                "converged", polished.message, points, residual, polished.negative_eigenvalues,
+                steps, hessians, newton_steps,
+            )  # fmt: skip
+        polished = replace(
+            polished,
+            residual=residual,
+            message=f"relative residual {residual:.1e} once the state had followed the shape",
+        )
     return SettleResult(
-        status, polished.message, points, residual, polished.negative_eigenvalues,
-        steps, hessians, newton_steps,
+        "not_converged", polished.message, points, polished.residual,
+        polished.negative_eigenvalues, steps, hessians, newton_steps,
     )  # fmt: skip
 
 
-def _comes_to_rest(problem: Problem, points: np.ndarray, options: SettleOptions) -> bool:
-    """Commit a shape that is in equilibrium at the last state; whether it is so at the new one.
+def _committed(problem: Problem, points: np.ndarray, residual: float) -> float:
+    """Residual of an equilibrium once terms with memory have taken note of its shape.
 
-    The minimisation holds the state of terms with memory. Without memory there is nothing to do.
+    The minimisation holds their state.
     """
     if not problem.has_memory:
-        return True
+        return residual
     problem.commit(points)
-    return _residual(problem, points) <= options.residual_tolerance
-
-
-def _residual(problem: Problem, points: np.ndarray) -> float:
     held = HeldSheet(problem, points)
     _, gradient = held.value_and_gradient(held.unknowns(points))
-    return float(np.linalg.norm(gradient)) / held.ring_force
+    norm = float(np.linalg.norm(gradient))
+    return norm / held.ring_force if held.ring_force > 0 else (np.inf if norm > 0 else 0.0)
 
 
 def _polish(

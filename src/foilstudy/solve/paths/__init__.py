@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from foilstudy.solve.relaxation.loop import History
 __all__ = ["Arrival", "Path"]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Arrival:
     """Where a path has led, and whether that is a stable equilibrium.
 
@@ -37,6 +37,8 @@ class Arrival:
         Along the way; None where there was no motion.
     costs : mapping of str to Cost
         Of the stages of the path, by their names.
+    state : tuple
+        Of the terms of the problem at the end; empty where none has a memory.
     """
 
     status: str
@@ -49,10 +51,18 @@ class Arrival:
     hessians: int
     history: History | None
     costs: Mapping[str, Cost] = field(default_factory=dict)
+    state: tuple[Any, ...] = ()
+
+    def __repr__(self) -> str:
+        return f"<Arrival: {self.status}, {self.message}, {self.steps} steps>"
 
 
 class Path(Protocol):
-    """A strategy to crumple; a frozen specification."""
+    """A strategy to crumple; a frozen specification.
+
+    Its class has a method ``for_study(ramp_steps, scheme, settling, check_interval)``, which makes
+    the one that a study takes; it leaves out what it has no use for.
+    """
 
     def follow(self, problem: Problem, shortening: float) -> Arrival:
         """From the stress-free shape to rings that are nearer by `shortening`, m."""

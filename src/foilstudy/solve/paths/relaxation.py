@@ -40,6 +40,13 @@ class RelaxationPath:
     settling: SettleOptions = field(default_factory=SettleOptions)
     check_interval: int = 20
 
+    @classmethod
+    def for_study(
+        cls, ramp_steps: int, scheme: Scheme, settling: SettleOptions, check_interval: int
+    ) -> RelaxationPath:
+        """See `Path`."""
+        return cls(ramp_steps, scheme, settling, check_interval)
+
     def follow(self, problem: Problem, shortening: float) -> Arrival:
         """See `Path`."""
         motion, settling = self.scheme.start(problem), self.settling
@@ -54,13 +61,13 @@ class RelaxationPath:
         settling = replace(settling, relaxation_steps_max=left)
         with measured() as cost:
             settled = settle(problem, motion, relaxed.points, settling)
-        return _arrived(settled, relaxed, {"relaxing": relaxing, "settling": cost})
+        return _arrived(problem, settled, {"relaxing": relaxing, "settling": cost}, relaxed)
 
     def settle(self, problem: Problem, points: np.ndarray) -> Arrival:
         """See `Path`."""
         with measured() as cost:
             settled = settle(problem, self.scheme.start(problem), points, self.settling)
-        return _arrived(settled, None, {"settling": cost})
+        return _arrived(problem, settled, {"settling": cost})
 
 
 def _diverged(relaxed: RelaxationResult, costs: Mapping[str, Cost]) -> Arrival:
@@ -71,11 +78,15 @@ def _diverged(relaxed: RelaxationResult, costs: Mapping[str, Cost]) -> Arrival:
 
 
 def _arrived(
-    settled: SettleResult, relaxed: RelaxationResult | None, costs: Mapping[str, Cost]
+    problem: Problem,
+    settled: SettleResult,
+    costs: Mapping[str, Cost],
+    relaxed: RelaxationResult | None = None,
 ) -> Arrival:
     before = relaxed.steps if relaxed else 0
     return Arrival(
         settled.status, settled.message, settled.points, settled.residual,
         settled.negative_eigenvalues, before + settled.relaxation_steps, settled.newton_steps,
         settled.hessians, relaxed.history if relaxed else None, costs,
+        problem.state if problem.has_memory else (),
     )  # fmt: skip

@@ -179,7 +179,7 @@ def relax(
     momentum = np.zeros((3, free[1] - free[0], points.shape[2]))
     previous = np.zeros_like(momentum)
     velocity = np.zeros_like(momentum)
-    recorder = _Recorder(ramp, problem.energy_names)
+    recorder = _Recorder(ramp, problem)
     status, step = "not_converged", 0
     last_step = ramp.steps + rule.relaxation_steps_max
     while True:
@@ -187,7 +187,7 @@ def relax(
         work_rate, momentum_norm = _motion_products(velocity, momentum, force, previous, *free)
         if step % rule.check_interval == 0 or step == last_step:
             entry = recorder.record(step, force, energies, 0.5 * momentum_norm)
-            if not np.isfinite(entry.strain_energy + entry.kinetic_energy):
+            if not np.isfinite(energies.sum() + entry.kinetic_energy):
                 status = "diverged"
                 break
             if step >= ramp.steps and entry.settled(rule):
@@ -212,7 +212,7 @@ def relax(
 class _Entry:
     residual: float
     kinetic_energy: float
-    strain_energy: float
+    strain_energy: float  # of the shell: that of loads may be negative
 
     @property
     def kinetic_energy_ratio(self) -> float:
@@ -223,9 +223,10 @@ class _Entry:
 
 
 class _Recorder:
-    def __init__(self, ramp: Ramp, energy_names: tuple[str, ...]):
+    def __init__(self, ramp: Ramp, problem: Problem):
         self._ramp = ramp
-        self._energy_names = energy_names
+        self._energy_names = problem.energy_names
+        self._of_shell = len(problem.shell.energy_names)
         self._rows: list[tuple] = []
         self._last: _Entry | None = None
 
@@ -237,7 +238,8 @@ class _Recorder:
         self._rows.append(
             (step, -self._ramp.shortening_at(step), reaction, *energies, kinetic, residual)
         )
-        self._last = _Entry(float(residual), float(kinetic), float(energies.sum()))
+        strain = float(energies[: self._of_shell].sum())
+        self._last = _Entry(float(residual), float(kinetic), strain)
         return self._last
 
     def _energy_words(self) -> str:

@@ -12,10 +12,6 @@ from foilstudy.solve.relaxation.damping.adaptive_viscous import AdaptiveViscousD
 from foilstudy.solve.relaxation.mass import Mass, MassScaling
 from foilstudy.solve.relaxation.mass.spectral import SpectralMassScaling
 
-RAMP_DAMPING, RELAXATION_DAMPING = 0.5, 0.06
-"""Share of the critical damping of the current motion, while the ring moves and after. The Rayleigh
-quotient overestimates the slowest mode, so that less damping settles sooner (docs/method.md)."""
-
 
 @dataclass(frozen=True)
 class Scheme:
@@ -28,21 +24,25 @@ class Scheme:
     """
 
     mass: MassScaling = choice_field(MASSES, SpectralMassScaling)
-    ramp_damping: Damping = choice_field(DAMPINGS, lambda: AdaptiveViscousDamping(RAMP_DAMPING))
-    relaxation_damping: Damping = choice_field(
-        DAMPINGS, lambda: AdaptiveViscousDamping(RELAXATION_DAMPING)
-    )
+    ramp_damping: Damping = choice_field(DAMPINGS, AdaptiveViscousDamping.for_ramp)
+    relaxation_damping: Damping = choice_field(DAMPINGS, AdaptiveViscousDamping.for_relaxation)
+
+    @classmethod
+    def named(cls, mass: str, damping: str) -> Scheme:
+        """From the names of `foilstudy.solve.choices`, with the numbers of a study."""
+        kind = DAMPINGS[damping]
+        return cls(MASSES[mass](), kind.for_ramp(), kind.for_relaxation())
 
     def start(self, problem: Problem) -> Motion:
         """Fresh mass and dampers for one run."""
         return Motion(
-            self.mass.start(problem.shell.section),
+            self.mass.start(problem),
             self.ramp_damping.start(),
             self.relaxation_damping.start(),
         )
 
 
-@dataclass(frozen=True)
+@dataclass(eq=False)
 class Motion:
     """A scheme at work. Its dampers remember, so that one run goes on where it was left.
 

@@ -14,19 +14,11 @@ from foilstudy.config.foils import foil_of
 from foilstudy.config.scene import recipe_of
 from foilstudy.model.patch import RING_ROWS, knot_points
 from foilstudy.model.shell.intersection import self_crossing_share
-from foilstudy.model.shell.shell import Energies
 from foilstudy.model.shell.yielding import beyond_yield_share
 from foilstudy.pipeline.crumple import crumple
 from foilstudy.pipeline.crumpled import Crumpled, described
+from foilstudy.solve.relaxation import History
 from foilstudy.study.sweep.quantities import quantities
-
-_HISTORY_OF_SHAPE = (
-    "reaction_force",
-    "membrane_energy",
-    "bending_energy",
-    "stabilisation_energy",
-)
-"""What is known of the equilibrium under the names of the history."""
 
 
 def crumple_job(task: CrumpleTask, path: Path) -> None:
@@ -47,48 +39,47 @@ def crumple_job(task: CrumpleTask, path: Path) -> None:
     started = time.perf_counter()
     try:
         crumpled = crumple(foil, recipe.mesh, recipe.imperfection, recipe.method)
-        values = values_of(crumpled)
+        record = quantities(values_of(crumpled))
         attributes |= {"status": crumpled.status, "message": crumpled.message}
     except MACHINE_FAULTS:
         raise
     except Exception as error:  # a study must survive any one realisation
         traceback.print_exc()
-        values = {}
+        record = {}
         attributes |= {"status": "failed", "message": f"{type(error).__name__}: {error}"}
-    values["seconds_crumple"] = time.perf_counter() - started
-    write_record(path, quantities(values), attributes)
-    print(f"{attributes['status']}: {attributes['message']} ({values['seconds_crumple']:.1f} s)")
+    seconds = time.perf_counter() - started
+    write_record(path, record | quantities({"seconds_crumple": seconds}), attributes)
+    print(f"{attributes['status']}: {attributes['message']} ({seconds:.1f} s)")
 
 
 def values_of(crumpled: Crumpled) -> dict[str, np.ndarray | float]:
     """Everything that is recorded of a crumple, by the names of `QUANTITIES`; SI."""
     arrival = crumpled.arrival
-    history = arrival.history
+    values: dict[str, np.ndarray | float] = {}
+    if arrival.status != "diverged":
+        values = _shape(crumpled) | _numbers(crumpled)
+    return values | (_history(arrival.history, values) if arrival.history else {})
+
+
+def _history(history: History, values: dict) -> dict[str, np.ndarray]:
+    """Along the way; the equilibrium, where there is one, is the last entry."""
     tables = {
         "step": history.step,
         "height": history.height,
         "reaction_force": history.reaction_force,
-        **{f"{name}_energy": values for name, values in history.energies.items()},
+        **{f"{name}_energy": column for name, column in history.energies.items()},
         "kinetic_energy": history.kinetic_energy,
         "residual": history.residual,
     }
-    values: dict[str, np.ndarray | float] = {}
-    if arrival.status != "diverged":
-        values = _shape(crumpled) | _numbers(crumpled)
-        end = _end_of_history(values, history.height[-1])
+    if values:
+        end = values | {
+            "step": int(values["steps"] + values["newton_steps"]),  # all kinds of step count
+            "height": history.height[-1],
+            "kinetic_energy": 0.0,
+            "residual": values["equilibrium_residual"],
+        }
         tables = {name: np.append(column, end[name]) for name, column in tables.items()}
-    return values | {f"history_{name}": column for name, column in tables.items()}
-
-
-def _end_of_history(values: dict, height: float) -> dict[str, float]:
-    """The equilibrium as last entry of the history; quasi-Newton steps count like the others."""
-    return {
-        "step": int(values["steps"] + values["newton_steps"]),
-        "height": height,
-        "kinetic_energy": 0.0,
-        "residual": values["equilibrium_residual"],
-        **{name: values[name] for name in _HISTORY_OF_SHAPE},
-    }
+    return {f"history_{name}": column for name, column in tables.items()}
 
 
 def _shape(crumpled: Crumpled) -> dict[str, np.ndarray]:
@@ -108,15 +99,13 @@ def _radial_displacement(surface: np.ndarray, reference: np.ndarray) -> np.ndarr
 
 def _numbers(crumpled: Crumpled) -> dict[str, float]:
     arrival, points, patch = crumpled.arrival, crumpled.points, crumpled.patch
-    force = np.empty_like(points)
-    energies = Energies(*crumpled.stressed.force(points, force))
+    problem, force = crumpled.problem(), np.empty_like(points)
+    energies = zip(problem.energy_names, problem.force(points, force), strict=True)
     surface = knot_points(points)
     radial = _radial_displacement(surface, knot_points(crumpled.reference))
     count = arrival.negative_eigenvalues
     return {
-        "membrane_energy": energies.membrane,
-        "bending_energy": energies.bending,
-        "stabilisation_energy": energies.stabilisation,
+        **{f"{name}_energy": energy for name, energy in energies},
         "reaction_force": -float(force[2, -RING_ROWS:].sum()),
         "equilibrium_residual": arrival.residual,
         "negative_eigenvalues": np.nan if count is None else float(count),

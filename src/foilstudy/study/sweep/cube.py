@@ -80,11 +80,9 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
         },
     )
     bounds, _ = read_record(results / "cylinder.nc")
-    cube["cylinder_stiffness"] = (
-        ("thickness", "overlength", "direction"),
-        bounds["cylinder_stiffness"],
-        {"units": "N/m", "long_name": "static stiffness of the uncrumpled cylinder"},
-    )
+    for name, values in bounds.items():
+        what = QUANTITIES[name]
+        cube[name] = (what.dims, values, {"units": what.units, "long_name": what.words})
     cube["status"] = (_CELL, status, {"units": "1", "long_name": "outcome of the realisation"})
     cube["message"] = (_CELL, message, {"units": "1", "long_name": "reason of the status"})
     _write(cube, path)

@@ -6,14 +6,15 @@ from pathlib import Path
 
 import numpy as np
 
-from foilstudy.base.record import Quantity, write_record
-from foilstudy.config import StudyConfig
-from foilstudy.config.foils import material_of
+from foilstudy.base.record import write_record
+from foilstudy.config import Cell, StudyConfig
+from foilstudy.config.foils import foil_of, patch_of
 from foilstudy.linalg import SolveError
-from foilstudy.measure.stiffness import InterfaceSystem, Rings, condense, fixed_stiffness
-from foilstudy.model.patch import Patch, cylinder_control_points
+from foilstudy.model.patch import cylinder_control_points
 from foilstudy.model.shell.elements.one_point import OnePoint
-from foilstudy.model.shell.shell import Shell
+from foilstudy.pipeline.shape import Shape
+from foilstudy.pipeline.static import stress_free_stiffness
+from foilstudy.study.sweep.quantities import quantities
 
 
 def cylinder_bounds(study: StudyConfig, path: Path) -> None:
@@ -21,21 +22,24 @@ def cylinder_bounds(study: StudyConfig, path: Path) -> None:
 
     Writes `path` with ``cylinder_stiffness`` of shape (thickness, overlength, direction), N/m.
     """
-    element = OnePoint()  # most accurate where nothing folds
-    diameter, material = study.sheet.diameter_mm * 1e-3, material_of(study.material)
-    bounds = np.empty((len(study.thicknesses_um), len(study.reference_heights_mm), 2))
-    for i, thickness_um in enumerate(study.thicknesses_um):
-        size = study.mesh_of(thickness_um).element_size_mm * 1e-3
-        for j, height_mm in enumerate(study.reference_heights_mm):
-            patch = Patch.for_cylinder(diameter, height_mm * 1e-3, size)
-            points = cylinder_control_points(patch, diameter)
-            sheet = Shell.elastic(patch, points, material, thickness_um * 1e-6, element)
-            system = InterfaceSystem.split(sheet.tangent(), Rings.of(patch, points))
-            try:
-                bounds[i, j] = fixed_stiffness(condense(system).stiffness)
-            except SolveError as error:  # a missing bound is no reason to lose a study
-                print(f"no bound at {thickness_um:g} um, {height_mm:g} mm: {error}")
-                bounds[i, j] = np.nan
-    dims = ("thickness", "overlength", "direction")
-    quantity = Quantity(bounds, "N/m", "static stiffness of the uncrumpled cylinder", dims)
-    write_record(path, {"cylinder_stiffness": quantity}, {})
+    first = [cell for cell in study.cells() if cell.seed == study.seeds[0]]
+    bounds = np.array([_bound(study, cell) for cell in first])
+    shape = len(study.thicknesses_um), len(study.reference_heights_mm), 2
+    write_record(
+        path,
+        quantities({"cylinder_stiffness": bounds.reshape(shape)}),
+        {"task": study.model_dump_json(include={"sheet", "material", "sweep", "mesh"})},
+    )
+
+
+def _bound(study: StudyConfig, cell: Cell) -> np.ndarray:
+    task = study.crumple_task(cell)
+    foil, patch = foil_of(task), patch_of(task)
+    points = cylinder_control_points(patch, foil.diameter)
+    # the element that is most accurate where nothing folds
+    cylinder = Shape(foil, patch, points, points, OnePoint())
+    try:
+        return stress_free_stiffness(cylinder)
+    except SolveError as error:  # a missing bound is no reason to lose a study
+        print(f"no bound for {foil}: {error}")
+        return np.full(2, np.nan)

@@ -111,6 +111,11 @@ QUANTITIES: dict[str, Declared] = {
     "seconds_dynamic": Declared("s", "time of the dynamic stiffness"),
     "seconds_refined": Declared("s", "time of relaxing again on refined meshes"),
     "peak_memory": Declared("MB", "peak memory of the response job"),
+    "cylinder_stiffness": _record_only(
+        "N/m",
+        "static stiffness of the uncrumpled cylinder",
+        ("thickness", "overlength", "direction"),
+    ),
     "frequency": _record_only("Hz", "frequency", ("frequency",)),
     "mode_shape": _record_only(
         "m/sqrt(kg m2)",
@@ -127,15 +132,30 @@ QUANTITIES: dict[str, Declared] = {
     "history_reaction_force": _record_only(
         "N", "axial force of the foil on the top ring", _HISTORY
     ),
-    "history_membrane_energy": _record_only("J", "membrane energy", _HISTORY),
-    "history_bending_energy": _record_only("J", "bending energy", _HISTORY),
-    "history_stabilisation_energy": _record_only("J", "stabilisation energy", _HISTORY),
     "history_kinetic_energy": _record_only("J", "kinetic energy of the fictitious mass", _HISTORY),
     "history_residual": _record_only(
         "1", "norm of the force on the free foil over that on the rings", _HISTORY
     ),
 }
 """By name, in the order of the cube."""
+
+
+_ENERGY = "_energy"
+
+
+def declared(name: str) -> Declared:
+    """What is declared of a quantity; further terms of the energy are known by their ending.
+
+    Raises
+    ------
+    KeyError
+        If it is not declared.
+    """
+    if name not in QUANTITIES and name.endswith(_ENERGY):
+        words = name.removesuffix(_ENERGY).removeprefix("history_").replace("_", " ")
+        dims = _HISTORY if name.startswith("history_") else ()
+        return _record_only("J", f"energy of the {words}", dims)
+    return QUANTITIES[name]
 
 
 def quantities(values: Mapping[str, np.ndarray | float]) -> dict[str, Quantity]:
@@ -147,7 +167,7 @@ def quantities(values: Mapping[str, np.ndarray | float]) -> dict[str, Quantity]:
         If a value is not declared.
     """
     return {
-        name: Quantity(value, declared.units, declared.words, declared.dims)
+        name: Quantity(value, what.units, what.words, what.dims)
         for name, value in values.items()
-        for declared in (QUANTITIES[name],)
+        for what in (declared(name),)
     }

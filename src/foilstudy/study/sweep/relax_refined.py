@@ -13,9 +13,7 @@ from foilstudy.base.record import MACHINE_FAULTS, read_record, write_record
 from foilstudy.base.spec import dumped
 from foilstudy.config import RefineTask
 from foilstudy.config.foils import foil_of
-from foilstudy.config.scene import method_of
 from foilstudy.pipeline.crumpled import Crumpled
-from foilstudy.pipeline.method import Method
 from foilstudy.study.sweep.quantities import quantities
 
 
@@ -32,7 +30,7 @@ def refine_job(task: RefineTask, crumple_path: Path, path: Path) -> None:
         try:
             crumpled = Crumpled.of_record(recorded, attributes)
             clock = time.perf_counter()
-            values, status, message = _relaxed(crumpled, task.refinements, method_of(task))
+            values, status, message = _relaxed(crumpled, task.refinements)
             if values:
                 values["seconds_refined"] = time.perf_counter() - clock
         except MACHINE_FAULTS:
@@ -51,12 +49,12 @@ def refine_job(task: RefineTask, crumple_path: Path, path: Path) -> None:
 
 
 def _relaxed(
-    crumpled: Crumpled, refinements: int, method: Method
+    crumpled: Crumpled, refinements: int
 ) -> tuple[dict[str, np.ndarray | float], str, str]:
     """Values on the finest mesh, empty where a level did not settle; status and message."""
     coarser = crumpled.prestressed_stiffness()
     for level in range(refinements):
-        crumpled = crumpled.refined().settled(method)
+        crumpled = crumpled.refined().settled()
         if crumpled.status != "converged":
             return {}, crumpled.status, f"refinement {level + 1}: {crumpled.message}"
         prestressed = crumpled.prestressed_stiffness()

@@ -2,17 +2,32 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
 from foilstudy.base.registry import Choice, Registry
+from foilstudy.model.foil import Material
 
 __all__ = ["LAWS", "Law"]
 
 
 class Law(Protocol):
-    """How a section of a given thickness resists strain and curvature."""
+    """How a section of a given thickness resists strain and curvature.
+
+    Made of a `Material`. An elastic law is all in its stiffness; one with a memory adds terms to
+    the energy (`foilstudy.solve.problem.Term`), which hold the state.
+
+    Attributes
+    ----------
+    material : Material
+    """
+
+    material: Material
+
+    def terms(self, section: Any) -> tuple[Any, ...]:
+        """What a problem has to add to the elastic shell of a section."""
+        ...
 
     def membrane_stiffness(self, forms: np.ndarray, thickness: float) -> np.ndarray:
         """Stiffness against the membrane strain per unit of parameter area.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -21,6 +22,10 @@ class Elastic:
     """
 
     material: Material
+
+    def terms(self, section: Any) -> tuple[Any, ...]:
+        """See `Law`: none."""
+        return ()
 
     def membrane_stiffness(self, forms: np.ndarray, thickness: float) -> np.ndarray:
         """See `Law`."""

@@ -28,7 +28,11 @@ class Damper(Protocol):
 
 
 class Damping(Protocol):
-    """Chooses the viscous coefficient of every pseudo-time step."""
+    """Chooses the viscous coefficient of every pseudo-time step.
+
+    Its class has methods ``for_ramp()`` and ``for_relaxation()``, which make the one that a study
+    takes while the ring moves, and after.
+    """
 
     def start(self) -> Damper:
         """At work on a motion that begins now."""

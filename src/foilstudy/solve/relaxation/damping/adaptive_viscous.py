@@ -6,6 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+_RAMP, _RELAXATION = 0.5, 0.06
+"""Share of the critical damping of the current motion, while the ring moves and after. The Rayleigh
+quotient overestimates the slowest mode, so that less damping settles sooner (docs/method.md)."""
 _LARGEST = 1.9
 """Of the coefficient; at 2 the motion would stop within a step."""
 
@@ -30,6 +33,16 @@ class AdaptiveViscousDamping:
     kind = "adaptive_viscous"
     scale: float = 1.0
     memory: float = 50.0
+
+    @classmethod
+    def for_ramp(cls) -> AdaptiveViscousDamping:
+        """See `Damping`."""
+        return cls(_RAMP)
+
+    @classmethod
+    def for_relaxation(cls) -> AdaptiveViscousDamping:
+        """See `Damping`."""
+        return cls(_RELAXATION)
 
     def start(self) -> _Averages:
         """See `Damping`."""

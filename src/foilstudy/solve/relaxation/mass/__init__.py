@@ -6,7 +6,7 @@ from typing import Protocol
 
 import numpy as np
 
-from foilstudy.model.shell.section import Section
+from foilstudy.solve.problem import Problem
 
 __all__ = ["MassScaling", "Mass"]
 
@@ -22,6 +22,6 @@ class Mass(Protocol):
 class MassScaling(Protocol):
     """Chooses the fictitious mass of a sheet."""
 
-    def start(self, section: Section) -> Mass:
-        """The mass of a sheet with this section."""
+    def start(self, problem: Problem) -> Mass:
+        """The mass for a problem."""
         ...

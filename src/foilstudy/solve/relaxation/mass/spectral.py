@@ -16,6 +16,7 @@ from numba import njit
 
 from foilstudy.model.patch import RING_ROWS
 from foilstudy.model.shell.section import Section
+from foilstudy.solve.problem import Problem
 
 
 @njit(cache=True, fastmath=True, error_model="numpy")
@@ -62,9 +63,9 @@ class SpectralMassScaling:
     kind = "spectral"
     safety: float = 1.5
 
-    def start(self, section: Section) -> SpectralMass:
-        """See `MassScaling`."""
-        return SpectralMass(section, self.safety)
+    def start(self, problem: Problem) -> SpectralMass:
+        """See `MassScaling`; of the terms it knows the shell alone."""
+        return SpectralMass(problem.shell.section, self.safety)
 
 
 class SpectralMass:
