@@ -30,11 +30,12 @@ def draw_shape(points: np.ndarray, radius: float, title: str, ax=None):
     """
     extent = 1e3 * max(np.ptp(points[0]), np.ptp(points[1]), np.ptp(points[2]))
     moved = np.abs(np.hypot(points[0], points[1]) - radius).max()
-    view = View(pixel_mm=extent / _PIXELS, colour_scale_mm=max(1e3 * moved, 1e-3))
+    scale = max(1e3 * moved, 1e-3)
+    view = View(pixel_mm=extent / _PIXELS, colour_scale_mm=scale)
     picture = render(Shape(points, radius), view)
     if ax is None:
         ax = new_figure(_INCHES, _INCHES).subplots()
     ax.imshow(picture.rgba, extent=picture.extent_mm)
-    ax.set_title(title, fontsize=9)
-    ax.set_xlabel("mm")
+    ax.set_title(title.replace(", ", "\n", 1), fontsize=9)
+    ax.set_xlabel(f"mm; colour: radial displacement to ±{scale:.2g} mm")
     return ax
