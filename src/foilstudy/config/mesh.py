@@ -13,7 +13,7 @@ from foilstudy.model.foil import SMOOTH_LENGTH_MIN
 from foilstudy.model.mesh_size import element_size_for
 from foilstudy.model.shell.elements import ELEMENTS
 
-from .sections import Section, choice_field, choice_of, unit_field
+from .sections import Section, choice_of, registry_field, unit_field
 
 AUTO = "auto"
 ENERGY_ERROR_DEFAULT_PERCENT = 10.0
@@ -57,7 +57,7 @@ class Mesh(Section):
         ge=0.1,
         le=100,
     )
-    element: choice_of(ELEMENTS) = choice_field(
+    element: choice_of(ELEMENTS) = registry_field(
         ELEMENTS, "corner", "Where an element samples its strains. "
     )
 

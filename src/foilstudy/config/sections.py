@@ -39,7 +39,7 @@ def choice_of(registry: Registry) -> Any:
     return Literal[tuple(registry)]
 
 
-def choice_field(registry: Registry, default: str, what: str = "") -> Any:
+def registry_field(registry: Registry, default: str, what: str = "") -> Any:
     """Field with the names of a registry for values, described by its words."""
     return unit_field("choice", f"{what}{registry.words}", default)
 
@@ -93,7 +93,7 @@ class Material(Section):
     name: str = unit_field(
         "text", "Name of a known material (see below), or any other name.", "FEP", min_length=1
     )
-    law: choice_of(LAWS) = choice_field(LAWS, "elastic")
+    law: choice_of(LAWS) = registry_field(LAWS, "elastic")
     youngs_modulus_mpa: float = unit_field("MPa", "Young's modulus.", gt=0, le=2e6)
     poisson_ratio: float = unit_field("1", "Poisson's ratio.", gt=-1, le=0.5)
     density_kg_m3: float = unit_field("kg/m3", "Density.", gt=0, le=30_000)
@@ -185,7 +185,7 @@ class Sweep(Section):
 class Imperfection(Section):
     """Random deviation from the perfect cylinder that decides where the foil buckles."""
 
-    kind: choice_of(IMPERFECTIONS) = choice_field(IMPERFECTIONS, "gaussian")
+    kind: choice_of(IMPERFECTIONS) = registry_field(IMPERFECTIONS, "gaussian")
     amplitude_um: float = unit_field(
         "um",
         "Standard deviation of each coordinate of a control point; of the radial one for "
@@ -250,11 +250,11 @@ class Relaxation(Section):
 class Method(Section):
     """Strategies of crumpling; each is recorded with its numbers in every result."""
 
-    path: choice_of(PATHS) = choice_field(PATHS, "relaxation")
-    mass: choice_of(MASSES) = choice_field(MASSES, "spectral")
-    damping: choice_of(DAMPINGS) = choice_field(DAMPINGS, "adaptive_viscous")
-    search: choice_of(SEARCHES) = choice_field(SEARCHES, "quasi_newton")
-    stress_removal: choice_of(STRESS_REMOVALS) = choice_field(STRESS_REMOVALS, "reset")
+    path: choice_of(PATHS) = registry_field(PATHS, "relaxation")
+    mass: choice_of(MASSES) = registry_field(MASSES, "spectral")
+    damping: choice_of(DAMPINGS) = registry_field(DAMPINGS, "adaptive_viscous")
+    search: choice_of(SEARCHES) = registry_field(SEARCHES, "quasi_newton")
+    stress_removal: choice_of(STRESS_REMOVALS) = registry_field(STRESS_REMOVALS, "reset")
 
 
 class Stiffness(Section):
@@ -281,7 +281,7 @@ class Stiffness(Section):
 class Dynamics(Section):
     """Dynamic stiffness between the end rings."""
 
-    reduction: choice_of(REDUCTIONS) = choice_field(
+    reduction: choice_of(REDUCTIONS) = registry_field(
         REDUCTIONS, "rational_krylov", "How the foil is reduced. "
     )
     tolerance: float = unit_field(
@@ -305,7 +305,7 @@ class Dynamics(Section):
     frequencies: int = unit_field(
         "1", "Number of frequencies, spaced logarithmically.", 200, ge=2, le=100_000
     )
-    damping: choice_of(STRUCTURAL_DAMPINGS) = choice_field(STRUCTURAL_DAMPINGS, "modal")
+    damping: choice_of(STRUCTURAL_DAMPINGS) = registry_field(STRUCTURAL_DAMPINGS, "modal")
     damping_percent: float = unit_field("%", "Share of the critical damping.", 5.0, gt=0, lt=100)
     rayleigh_hz: tuple[float, float] | None = unit_field(
         "list of Hz", "Two frequencies, rising, only for `rayleigh` damping.", None, strict=False

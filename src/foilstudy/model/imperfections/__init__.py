@@ -1,4 +1,4 @@
-"""Random imperfections of the stress-free cylinder: one file each, all of the protocol `Shape`."""
+"""Random imperfections of the stress-free cylinder: one file each, protocol `Deviation`."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from foilstudy.base.registry import Choice, Registry
 from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.model.patch import Patch
 
-__all__ = ["IMPERFECTIONS", "Shape"]
+__all__ = ["IMPERFECTIONS", "Deviation"]
 
 
-class Shape(Protocol):
+class Deviation(Protocol):
     """A kind of deviation."""
 
     def __call__(

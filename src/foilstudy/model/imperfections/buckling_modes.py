@@ -14,7 +14,7 @@ _MODES = 40
 def deviation(
     patch: Patch, foil: Foil, imperfection: Imperfection, rng: np.random.Generator
 ) -> np.ndarray:
-    """See `Shape`; radial."""
+    """See `Deviation`; radial."""
     perfect = cylinder_control_points(patch, foil.diameter)
     angle = np.arctan2(perfect[1], perfect[0])
     radial = _radial(patch, rng, foil)

@@ -11,5 +11,5 @@ from foilstudy.model.patch import Patch
 def deviation(
     patch: Patch, foil: Foil, imperfection: Imperfection, rng: np.random.Generator
 ) -> np.ndarray:
-    """See `Shape`."""
+    """See `Deviation`."""
     return rng.standard_normal(patch.shape)

@@ -12,7 +12,7 @@ from foilstudy.model.patch import Patch, fitted_control_points
 def deviation(
     patch: Patch, foil: Foil, imperfection: Imperfection, rng: np.random.Generator
 ) -> np.ndarray:
-    """See `Shape`; the control points follow the same unit-variance field on every mesh.
+    """See `Deviation`; the control points follow the same unit-variance field on every mesh.
 
     Within about one length of a ring it falls to zero with its slope, as the ring rows stay
     perfect: cut off there, it would have a step whose slope depends on the mesh.
