@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import time
-import traceback
 from pathlib import Path
 
 import numpy as np
 
-from foilstudy.base.record import MACHINE_FAULTS, write_record
+from foilstudy.base.costs import measured
+from foilstudy.base.record import write_record
 from foilstudy.config import CrumpleTask
 from foilstudy.config.foils import foil_of
 from foilstudy.config.scene import recipe_of
@@ -18,6 +17,7 @@ from foilstudy.model.shell.yielding import beyond_yield_share
 from foilstudy.pipeline.crumple import crumple
 from foilstudy.pipeline.crumpled import Crumpled, described
 from foilstudy.solve.relaxation import History
+from foilstudy.study.sweep.outcome import Outcome, Values, outcome_of
 from foilstudy.study.sweep.quantities import quantities
 
 
@@ -36,26 +36,23 @@ def crumple_job(task: CrumpleTask, path: Path) -> None:
         "element": task.mesh.element,
         "task": task.model_dump_json(),
     } | described(foil, recipe)
-    started = time.perf_counter()
-    try:
+
+    def work() -> Outcome:
         crumpled = crumple(foil, recipe.mesh, recipe.imperfection, recipe.method)
-        record = quantities(values_of(crumpled))
-        attributes |= {"status": crumpled.status, "message": crumpled.message}
-    except MACHINE_FAULTS:
-        raise
-    except Exception as error:  # a study must survive any one realisation
-        traceback.print_exc()
-        record = {}
-        attributes |= {"status": "failed", "message": f"{type(error).__name__}: {error}"}
-    seconds = time.perf_counter() - started
-    write_record(path, record | quantities({"seconds_crumple": seconds}), attributes)
-    print(f"{attributes['status']}: {attributes['message']} ({seconds:.1f} s)")
+        return Outcome(crumpled.status, crumpled.message, values_of(crumpled))
+
+    with measured() as cost:
+        outcome = outcome_of(work)
+    values = outcome.values | {"seconds_crumple": cost.seconds}
+    attributes |= {"status": outcome.status, "message": outcome.message}
+    write_record(path, quantities(values), attributes)
+    print(f"{outcome.status}: {outcome.message} ({cost.seconds:.1f} s)")
 
 
-def values_of(crumpled: Crumpled) -> dict[str, np.ndarray | float]:
+def values_of(crumpled: Crumpled) -> Values:
     """Everything that is recorded of a crumple, by the names of `QUANTITIES`; SI."""
     arrival = crumpled.arrival
-    values: dict[str, np.ndarray | float] = {}
+    values: Values = {}
     if arrival.status != "diverged":
         values = _shape(crumpled) | _numbers(crumpled)
     return values | (_history(arrival.history, values) if arrival.history else {})

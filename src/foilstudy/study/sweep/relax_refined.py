@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import time
-import traceback
 from pathlib import Path
 
 import numpy as np
 
+from foilstudy.base.costs import measured
 from foilstudy.base.outcome import USABLE
-from foilstudy.base.record import MACHINE_FAULTS, read_record, write_record
+from foilstudy.base.record import read_record, write_record
 from foilstudy.base.spec import dumped
 from foilstudy.config import RefineTask
 from foilstudy.config.foils import foil_of
 from foilstudy.pipeline.crumpled import Crumpled
+from foilstudy.study.sweep.outcome import Outcome, outcome_of
 from foilstudy.study.sweep.quantities import quantities
 
 
@@ -24,39 +24,30 @@ def refine_job(task: RefineTask, crumple_path: Path, path: Path) -> None:
     say nothing against the crumple it began with.
     """
     recorded, attributes = read_record(crumple_path)
-    status, message = attributes["status"], attributes["message"]
-    values: dict[str, np.ndarray | float] = {}
-    if status in USABLE:
-        try:
-            crumpled = Crumpled.of_record(recorded, attributes)
-            clock = time.perf_counter()
-            values, status, message = _relaxed(crumpled, task.refinements)
-            if values:
-                values["seconds_refined"] = time.perf_counter() - clock
-        except MACHINE_FAULTS:
-            raise
-        except Exception as error:  # a study must survive any one realisation
-            traceback.print_exc()
-            status, message = "failed", f"{type(error).__name__}: {error}"
+    outcome = Outcome(attributes["status"], attributes["message"])
+    with measured() as cost:
+        if outcome.status in USABLE:
+            outcome = outcome_of(
+                lambda: _relaxed(Crumpled.of_record(recorded, attributes), task.refinements)
+            )
+    values = outcome.values | ({"seconds_refined": cost.seconds} if outcome.values else {})
     described = {
-        "status": status,
-        "message": message,
+        "status": outcome.status,
+        "message": outcome.message,
         "task": task.model_dump_json(),
         "foil": dumped(foil_of(task)),
     }
     write_record(path, quantities(values), described)
-    print(f"{status}: {message}")
+    print(f"{outcome.status}: {outcome.message}")
 
 
-def _relaxed(
-    crumpled: Crumpled, refinements: int
-) -> tuple[dict[str, np.ndarray | float], str, str]:
-    """Values on the finest mesh, empty where a level did not settle; status and message."""
+def _relaxed(crumpled: Crumpled, refinements: int) -> Outcome:
+    """On the finest mesh, without values where a level did not settle."""
     coarser = crumpled.prestressed_stiffness()
     for level in range(refinements):
         crumpled = crumpled.refined().settled()
         if crumpled.status != "converged":
-            return {}, crumpled.status, f"refinement {level + 1}: {crumpled.message}"
+            return Outcome(crumpled.status, f"refinement {level + 1}: {crumpled.message}")
         prestressed = crumpled.prestressed_stiffness()
         step, coarser = np.abs(prestressed - coarser), prestressed
     arrival = crumpled.arrival
@@ -70,4 +61,4 @@ def _relaxed(
         "refined_negative_eigenvalues": float(arrival.negative_eigenvalues),
         "refined_steps": float(arrival.steps),
     }
-    return values, crumpled.status, crumpled.message
+    return Outcome(crumpled.status, crumpled.message, values)

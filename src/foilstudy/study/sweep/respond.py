@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import time
-import traceback
 from pathlib import Path
 
 import numpy as np
 
-from foilstudy.base.costs import peak_memory_mb
+from foilstudy.base.costs import measured
 from foilstudy.base.outcome import USABLE
-from foilstudy.base.record import MACHINE_FAULTS, read_record, write_record
+from foilstudy.base.record import read_record, write_record
 from foilstudy.base.spec import dumped
 from foilstudy.config import ResponseTask
 from foilstudy.config.foils import foil_of
@@ -21,6 +19,7 @@ from foilstudy.model.patch import Patch
 from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.structures import stress_free_structure
 from foilstudy.pipeline.vibration import surface_modes, vibration_of
+from foilstudy.study.sweep.outcome import Outcome, Values, outcome_of
 from foilstudy.study.sweep.quantities import quantities
 
 
@@ -31,26 +30,25 @@ def respond_job(task: ResponseTask, crumple_path: Path, path: Path) -> None:
     ``status`` and ``message`` say so.
     """
     recorded, attributes = read_record(crumple_path)
-    status, message = attributes["status"], attributes["message"]
-    values: dict[str, np.ndarray | float] = {}
-    if status in USABLE:
-        try:
-            values = _measured(task, Crumpled.of_record(recorded, attributes))
-            message = "; ".join(filter(None, (message, _beyond_validity(task, values))))
-        except MACHINE_FAULTS:
-            raise
-        except Exception as error:  # a study must survive any one realisation
-            traceback.print_exc()
-            status, message = "failed", f"{type(error).__name__}: {error}"
-    values["peak_memory"] = peak_memory_mb()
+    outcome = Outcome(attributes["status"], attributes["message"])
+
+    def work() -> Outcome:
+        values = _measured(task, Crumpled.of_record(recorded, attributes))
+        words = filter(None, (outcome.message, _beyond_validity(task, values)))
+        return Outcome(outcome.status, "; ".join(words), values)
+
+    with measured() as cost:
+        if outcome.status in USABLE:
+            outcome = outcome_of(work)
+    values = outcome.values | {"peak_memory": cost.peak_memory_mb}
     described = {
-        "status": status,
-        "message": message,
+        "status": outcome.status,
+        "message": outcome.message,
         "task": task.model_dump_json(),
         "foil": dumped(foil_of(task)),
     }
     write_record(path, quantities(values), described)
-    print(_summary(values) if "static_stiffness" in values else f"{status}: {message}")
+    print(_summary(values) if outcome.values else f"{outcome.status}: {outcome.message}")
 
 
 def _beyond_validity(task: ResponseTask, values: dict) -> str:
@@ -74,15 +72,13 @@ def _summary(values: dict) -> str:
     return f"axial {axial:.4g} N/m, radial {radial:.4g} N/m ({seconds:.1f} s)"
 
 
-def _measured(task: ResponseTask, crumpled: Crumpled) -> dict[str, np.ndarray | float]:
-    clock = time.perf_counter()
-    structure = stress_free_structure(crumpled)
-    values = _static(crumpled, structure, task.refinements)
-    seconds_static = time.perf_counter() - clock
-    clock = time.perf_counter()
-    values |= _dynamic(structure, dynamics_of(task.dynamics), crumpled.patch)
-    seconds_dynamic = time.perf_counter() - clock
-    return values | {"seconds_static": seconds_static, "seconds_dynamic": seconds_dynamic}
+def _measured(task: ResponseTask, crumpled: Crumpled) -> Values:
+    with measured() as static:
+        structure = stress_free_structure(crumpled)
+        values = _static(crumpled, structure, task.refinements)
+    with measured() as dynamic:
+        values |= _dynamic(structure, dynamics_of(task.dynamics), crumpled.patch)
+    return values | {"seconds_static": static.seconds, "seconds_dynamic": dynamic.seconds}
 
 
 def _static(crumpled: Crumpled, structure: Structure, refinements: int) -> dict[str, np.ndarray]:
@@ -99,12 +95,10 @@ def _static(crumpled: Crumpled, structure: Structure, refinements: int) -> dict[
     }
 
 
-def _dynamic(
-    structure: Structure, options: DynamicsOptions, patch: Patch
-) -> dict[str, np.ndarray | float]:
+def _dynamic(structure: Structure, options: DynamicsOptions, patch: Patch) -> Values:
     vibration = vibration_of(structure, options)
     model = vibration.model
-    values: dict[str, np.ndarray | float] = {
+    values: Values = {
         "frequency": vibration.frequencies,
         "dynamic_stiffness_re": vibration.dynamic_stiffness.real,
         "dynamic_stiffness_im": vibration.dynamic_stiffness.imag,

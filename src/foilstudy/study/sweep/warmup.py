@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 
 from foilstudy.base.outcome import USABLE
 from foilstudy.config import load_config
+from foilstudy.model.shell.elements import ELEMENTS
+from foilstudy.solve.choices import DAMPINGS, MASSES, PATHS, SEARCHES
 
 
 def compile_kernels() -> bool:
-    """Run one very small realisation with every element from end to end, and what only studies of
-    elements need besides.
+    """Run a very small realisation with every element and strategy, from end to end.
+
+    And what only studies of elements need besides.
 
     Returns
     -------
@@ -26,13 +30,12 @@ def compile_kernels() -> bool:
     from numba.core import event
 
     from foilstudy.base.record import read_record
-    from foilstudy.model.shell.elements import ELEMENTS
     from foilstudy.study.sweep.crumple import crumple_job
     from foilstudy.study.sweep.respond import respond_job
 
     with event.install_recorder("numba:compile") as compiled:
-        for element in ELEMENTS:
-            study = load_config(_smallest(element))
+        for sections in _variants():
+            study = load_config(_smallest(sections))
             (cell,) = study.cells()
             with tempfile.TemporaryDirectory() as folder:
                 paths = Path(folder) / "crumple.nc", Path(folder) / "response.nc"
@@ -41,10 +44,19 @@ def compile_kernels() -> bool:
                 _, attributes = read_record(paths[1])
             if attributes["status"] not in USABLE:
                 raise RuntimeError(
-                    f"the kernels of {element} do not work on this machine: {attributes['message']}"
+                    f"the kernels do not work on this machine with {sections}: "
+                    f"{attributes['message']}"
                 )
         _general_force()
     return bool(compiled.buffer)
+
+
+def _variants() -> Iterator[dict]:
+    """Sections that choose every element, and every strategy that is not the default."""
+    yield from ({"mesh": {"element": name}} for name in ELEMENTS)
+    registries = {"path": PATHS, "mass": MASSES, "damping": DAMPINGS, "search": SEARCHES}
+    for key, registry in registries.items():
+        yield from ({"method": {key: name}} for name in list(registry)[1:])
 
 
 def _general_force() -> None:
@@ -57,7 +69,7 @@ def _general_force() -> None:
     from foilstudy.model.shell.elements.sampled import STAGGERED
     from foilstudy.model.shell.shell import Shell
 
-    study = load_config(_smallest("corner"))
+    study = load_config(_smallest({}))
     (cell,) = study.cells()
     task = study.crumple_task(cell)
     foil = foil_of(task)
@@ -67,11 +79,12 @@ def _general_force() -> None:
     shell.force(points, np.empty_like(points))
 
 
-def _smallest(element: str) -> dict:
-    return {
+def _smallest(sections: dict) -> dict:
+    content = {
         "study": {"name": "warmup"},
         "sweep": {"thickness_um": [500], "reference_height_mm": [150], "realisations": 1},
-        "mesh": {"element_size_mm": 18, "element": element},
+        "mesh": {"element_size_mm": 18},
         "relaxation": {"ramp_steps": 100},
         "dynamics": {"shown_max_hz": 50},
     }
+    return content | {key: content.get(key, {}) | value for key, value in sections.items()}
