@@ -1,6 +1,7 @@
 """A job of the worker: as one of its own, and gone when the study or its client is."""
 
 import os
+import resource
 import shutil
 import signal
 import subprocess
@@ -32,9 +33,10 @@ pytestmark = pytest.mark.skipif(not hasattr(os, "pidfd_open"), reason="no worker
 class Study:
     """A process that holds a worker."""
 
-    def __init__(self):
-        command = [sys.executable, "-c", STUDY, sys.executable, "-P", str(SCRIPTS / "worker.py")]
-        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    def __init__(self, *words, log=None):
+        words = words or (str(SCRIPTS / "worker.py"),)
+        command = [sys.executable, "-c", STUDY, sys.executable, "-P", *words]
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=log, text=True)
         worker, self.socket = self.process.stdout.readline().split()
         self.worker = int(worker)
 
@@ -186,3 +188,47 @@ def test_jobs_end_with_a_killed_worker(tmp_path, number):
     assert run(study.socket, tmp_path, "print('on its own')").stdout == "on its own\n"
     study.kill()
     shutil.rmtree(Path(study.socket).parent, ignore_errors=True)
+
+
+# A worker whose machine has no memory for a process, or no descriptor to watch one.
+FAULTY = """
+import os, sys
+from foilstudy.study.worker import work
+def fail(process=None):
+    if process != os.getpid():
+        raise OSError("the machine is full")
+    return watched(process)
+watched = os.pidfd_open
+setattr(os, sys.argv[1], fail)
+work(again=sys.argv[2:] == ["again"])
+"""
+WHOSE = "import os; print(os.getppid())"
+
+
+@pytest.mark.parametrize("call", ["fork", "pidfd_open"])
+def test_a_job_that_the_worker_cannot_start_runs_by_itself(tmp_path, call):
+    with (tmp_path / "worker.log").open("w") as log:
+        study = Study("-c", FAULTY, call, log=log)
+    for _ in range(2):  # the worker stays
+        job = run(study.socket, tmp_path, WHOSE)
+        assert (job.returncode, job.stdout, job.stderr) == (0, f"{os.getpid()}\n", "")
+    study.kill()
+    assert (tmp_path / "worker.log").read_text().count("OSError: the machine is full") == 2
+
+
+@pytest.mark.parametrize("left", [0, 2, 4])
+def test_a_worker_short_of_descriptors_keeps_its_jobs(tmp_path, left):
+    """None for a connection; one, but not for the streams of a job; enough for one job more."""
+    study = Study()
+    client, process = asleep(study.socket, tmp_path)
+    descriptors = [int(path.name) for path in Path(f"/proc/{study.worker}/fd").iterdir()]
+    assert sorted(descriptors) == list(range(len(descriptors)))
+    _, most = resource.prlimit(study.worker, resource.RLIMIT_NOFILE)
+    resource.prlimit(study.worker, resource.RLIMIT_NOFILE, (len(descriptors) + left, most))
+    starter = study.worker if left == 4 else os.getpid()
+    for _ in range(2):
+        job = run(study.socket, tmp_path, WHOSE)
+        assert (job.returncode, job.stdout, job.stderr) == (0, f"{starter}\n", "")
+    assert not is_gone(process)
+    study.kill()
+    client.communicate()

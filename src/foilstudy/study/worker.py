@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import ast
 import ctypes
+import errno
 import gc
 import json
 import os
@@ -108,26 +109,26 @@ class _Worker:
             os.kill(job.process, signal.SIGKILL)
 
     def _start(self) -> None:
-        client, _ = self._listener.accept()
-        client.settimeout(_REQUEST_TIMEOUT_S)
-        streams: list[int] = []
+        """Fork for a client and tell it so; one that hears nothing runs its job itself."""
         try:
-            _, streams, *_ = socket.recv_fds(client, 1, _STANDARD_STREAMS)
-            with client.makefile("rb") as request:
-                order = json.loads(request.readline())
-            _load_imports(order["command"][0])
-            process = _forked(order, streams)
-        except (OSError, ValueError):  # the client is gone, or there is no memory for a process
+            client, _ = self._listener.accept()
+        except OSError:  # no descriptor is free: this client does without, and all to come
+            traceback.print_exc()
+            self._selector.unregister(self._listener)
+            self._listener.close()
+            return
+        try:
+            job = _started(client)
+        except Exception:  # the client is gone, or memory or descriptors are short
+            traceback.print_exc()
             client.close()
             return
-        finally:
-            for stream in streams:
-                os.close(stream)
-        job = _Job(process, os.pidfd_open(process), client)
         self._jobs.add(job)
         self._selector.register(job.ended, selectors.EVENT_READ, partial(self._finish, job))
         # A client has no more to say: this is its end, and takes its job with it.
         self._selector.register(client, selectors.EVENT_READ, partial(self._cancel, job))
+        with suppress(OSError):
+            client.sendall(b"started\n")
 
     def _cancel(self, job: _Job) -> None:
         if job in self._jobs:
@@ -144,6 +145,27 @@ class _Worker:
         with suppress(KeyError):  # cancelled
             self._selector.unregister(job.client)
         job.client.close()
+
+
+def _started(client: socket.socket) -> _Job:
+    client.settimeout(_REQUEST_TIMEOUT_S)
+    _, streams, *_ = socket.recv_fds(client, 1, _STANDARD_STREAMS)
+    try:
+        if len(streams) < _STANDARD_STREAMS:
+            raise OSError(errno.EMFILE, os.strerror(errno.EMFILE))
+        with client.makefile("rb") as request:
+            order = json.loads(request.readline())
+        _load_imports(order["command"][0])
+        process = _forked(order, streams)
+    finally:
+        for stream in streams:
+            os.close(stream)
+    try:
+        return _Job(process, os.pidfd_open(process), client)
+    except OSError:
+        os.kill(process, signal.SIGKILL)
+        os.waitpid(process, 0)
+        raise
 
 
 def _load_imports(script: str) -> None:
