@@ -1,5 +1,6 @@
 """The command `foilstudy`: what it says, what it refuses and with which exit code."""
 
+import importlib
 import re
 import subprocess
 import sys
@@ -93,6 +94,15 @@ def test_wrong_usage_is_an_error_without_traceback(words):
     run = process(*words)
     assert run.returncode not in (0, None) and "Traceback" not in run.stderr
     assert run.stderr.strip()
+
+
+def test_a_fault_of_the_package_keeps_its_traceback(tmp_path, monkeypatch):
+    """NumPy, pandas and xarray raise ValueError too: one sentence of it would hide where."""
+    write_cube(make_cube(seeds=2), tmp_path / "cube.nc")
+    module = importlib.import_module("foilstudy.present.redraw")
+    monkeypatch.setattr(module, "write_tables", lambda *_: np.zeros(2).reshape(3))
+    with pytest.raises(ValueError, match="cannot reshape"):
+        main(["report", str(tmp_path)])
 
 
 # --- check ---------------------------------------------------------------------------------------
@@ -253,3 +263,5 @@ def test_report_draws_an_existing_cube_again(tmp_path, capsys):
 
 def test_report_without_a_cube_is_one_sentence(tmp_path):
     assert str(tmp_path / "cube.nc") in refusal("report", tmp_path)
+    (tmp_path / "cube.nc").write_text("no NetCDF")
+    assert "is not a NetCDF file that can be read" in refusal("report", tmp_path)

@@ -69,7 +69,7 @@ def contents(coarse_crumple):
 def folder(contents, tmp_path_factory):
     """Every format, written once."""
     folder = tmp_path_factory.mktemp("export")
-    for name, kind in FORMATS.items():
+    for name, kind in FORMATS.choices.items():
         write(contents, name, folder / kind.filename)
     return folder
 
@@ -362,7 +362,7 @@ def test_calculix_deck_states_foil_steps_and_what_to_expect(contents, folder):
 
 
 def test_unknown_format_is_refused_naming_the_known_ones(contents, tmp_path):
-    with pytest.raises(ValueError, match=r"'stl' is not an export format; use one of nc, mat"):
+    with pytest.raises(ValueError, match=r"'stl' is not a known export format; use one of nc, mat"):
         write(contents, "stl", tmp_path / "shape.stl")
     assert list(tmp_path.iterdir()) == []
 
@@ -410,7 +410,7 @@ def test_realisation_leaves_the_formats_and_what_they_are(realisation):
     names = sorted(path.name for path in out.iterdir())
     assert names == ["README.txt", "frequency_response.csv", "shape.npz"]
     readme = (out / "README.txt").read_text()
-    assert all(FORMATS[name].content in readme for name in ("csv", "npz"))
+    assert all(FORMATS.choices[name].words in readme for name in ("csv", "npz"))
 
 
 def test_realisation_without_equilibrium_leaves_its_reason_alone(realisation):
@@ -443,7 +443,7 @@ def test_command_line_writes_one_format_to_a_file(realisation, tmp_path):
 def test_command_line_writes_every_format_and_the_shape_comes_back(realisation, tmp_path, capsys):
     config = tmp_path / "study.yaml"
     main(["export", str(realisation.folder), "--format=all", f"--config={config}"])
-    paths = [realisation.folder / "export" / kind.filename for kind in FORMATS.values()]
+    paths = [realisation.folder / "export" / kind.filename for kind in FORMATS.choices.values()]
     assert capsys.readouterr().out.splitlines() == [f"wrote {path}" for path in paths]
     record = contents_of(realisation.task, realisation.folder / "crumple.nc").crumple
     shape = dict(zip(FORMATS, paths))["npz"]
@@ -458,7 +458,7 @@ def test_command_line_refuses_in_one_sentence(realisation, tmp_path):
     with pytest.raises(SystemExit) as unknown:
         main(["export", str(realisation.folder), "--format=stl"])
     known = ", ".join(FORMATS)
-    assert unknown.value.code == f"'stl' is not an export format; use one of {known}."
+    assert unknown.value.code == f"'stl' is not a known export format; use one of {known}."
     with pytest.raises(SystemExit, match=r"^\S+cube.nc: there is no such file, .*--config\.$"):
         main(["export", str(realisation.folder), "--format=csv"])
     config = tmp_path / "study.yaml"

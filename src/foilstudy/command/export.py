@@ -31,22 +31,22 @@ def export(
     refinements : int
         Halve the elements so often before.
     """
-    from foilstudy.export.formats import FORMATS, check_format
+    from foilstudy.base.errors import Refusal
+    from foilstudy.export.formats import FORMATS
     from foilstudy.export.write import write
     from foilstudy.linalg import SolveError
     from foilstudy.study.sweep.export import contents_of, recorded_task
 
     names = list(FORMATS) if format == "all" else [format]
-    for name in names:
-        check_format(name)
+    formats = {name: FORMATS.choice(name) for name in names}
     try:
         contents = contents_of(recorded_task(folder, config), folder / "crumple.nc", refinements)
-        for name in names:
-            path = _destination(folder, FORMATS[name].filename, output, several=format == "all")
+        for name, kind in formats.items():
+            path = _destination(folder, kind.filename, output, several=format == "all")
             write(contents, name, path)
             print(f"wrote {path}")
     except SolveError as problem:
-        raise ValueError(f"{folder}: {problem}") from None
+        raise Refusal(f"{folder}: {problem}") from None
 
 
 def _destination(folder: Path, filename: str, output: Path | None, several: bool) -> Path:

@@ -8,6 +8,7 @@ from typing import Self
 
 import numpy as np
 
+from foilstudy.base.errors import Refusal
 from foilstudy.base.outcome import USABLE
 from foilstudy.base.record import read_record
 from foilstudy.base.spec import dumped, loaded
@@ -141,14 +142,14 @@ class Crumpled(Shape):
 
         Raises
         ------
-        ValueError
+        Refusal
             If the file is no such record, or its realisation has left no shape.
         """
         values, attributes = read_record(Path(path))
         if not {"foil", "mesh", "imperfection", "method"} <= attributes.keys():
-            raise ValueError(f"{path}: is not the record of a crumple; give a crumple.nc.")
+            raise Refusal(f"{path}: is not the record of a crumple; give a crumple.nc.")
         if attributes.get("status") not in USABLE:
-            raise ValueError(
+            raise Refusal(
                 f"{path}: the realisation has left no shape ({attributes.get('status')}: "
                 f"{attributes.get('message')})."
             )
@@ -160,11 +161,11 @@ class Crumpled(Shape):
 
         Raises
         ------
-        ValueError
+        Refusal
             If the record does not say what it is of, as in releases before 0.3.
         """
         if missing := {"foil", *_RECIPE} - attributes.keys():
-            raise ValueError(
+            raise Refusal(
                 f"the record of the crumple does not say its {', '.join(sorted(missing))}; it is "
                 "from an earlier release: run the study again."
             )

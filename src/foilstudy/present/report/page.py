@@ -93,7 +93,7 @@ def write_report(files: StudyFiles, out_path: Path) -> Path:
     ------
     FileNotFoundError
         If a table is missing.
-    ValueError
+    Refusal
         If the cube is missing or is none.
     """
     out_path = Path(out_path)
