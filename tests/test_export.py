@@ -400,8 +400,9 @@ def realisation(coarse_crumple, tmp_path):
         write_record(folder / "crumple.nc", quantities(values), attributes)
 
     record("converged")
-    (tmp_path / "study.yaml").write_text(study.to_yaml())
-    return SimpleNamespace(folder=folder, task=study.response_task(cell), record=record)
+    response = study.response_task(cell)
+    write_record(folder / "response.nc", {}, {"task": response.model_dump_json()})
+    return SimpleNamespace(folder=folder, task=response, record=record)
 
 
 def test_realisation_leaves_the_formats_and_what_they_are(realisation):
@@ -434,15 +435,12 @@ def test_format_that_cannot_hold_the_damping_leaves_the_others(realisation):
 
 def test_command_line_writes_one_format_to_a_file(realisation, tmp_path):
     target = tmp_path / "mine.csv"
-    config = tmp_path / "study.yaml"
-    folder = str(realisation.folder)
-    main(["export", folder, "--format=csv", f"--output={target}", f"--config={config}"])
+    main(["export", str(realisation.folder), "--format=csv", f"--output={target}"])
     assert target.read_text().startswith("frequency (Hz),transfer axial real (N/m)")
 
 
-def test_command_line_writes_every_format_and_the_shape_comes_back(realisation, tmp_path, capsys):
-    config = tmp_path / "study.yaml"
-    main(["export", str(realisation.folder), "--format=all", f"--config={config}"])
+def test_command_line_writes_every_format_and_the_shape_comes_back(realisation, capsys):
+    main(["export", str(realisation.folder), "--format=all"])
     paths = [realisation.folder / "export" / kind.filename for kind in FORMATS.choices.values()]
     assert capsys.readouterr().out.splitlines() == [f"wrote {path}" for path in paths]
     record = contents_of(realisation.task, realisation.folder / "crumple.nc").crumple
@@ -453,18 +451,18 @@ def test_command_line_writes_every_format_and_the_shape_comes_back(realisation, 
     np.testing.assert_allclose(back.points, expected, atol=1e-14)
 
 
-def test_command_line_refuses_in_one_sentence(realisation, tmp_path):
+def test_command_line_refuses_in_one_sentence(realisation):
     """`SystemExit` with a text prints it and ends with code 1."""
     with pytest.raises(SystemExit) as unknown:
         main(["export", str(realisation.folder), "--format=stl"])
     known = ", ".join(FORMATS)
     assert unknown.value.code == f"'stl' is not a known export format; use one of {known}."
-    with pytest.raises(SystemExit, match=r"^\S+cube.nc: there is no such file, .*--config\.$"):
-        main(["export", str(realisation.folder), "--format=csv"])
-    config = tmp_path / "study.yaml"
     realisation.record("diverged", "step 12")
     with pytest.raises(SystemExit, match=r"its status is diverged \(step 12\)"):
-        main(["export", str(realisation.folder), "--format=csv", f"--config={config}"])
+        main(["export", str(realisation.folder), "--format=csv"])
+    (realisation.folder / "response.nc").unlink()
+    with pytest.raises(SystemExit, match=r"^\S+response.nc: No such file or directory; check path"):
+        main(["export", str(realisation.folder), "--format=csv"])
 
 
 def test_study_exports_every_realisation_if_formats_are_given(tmp_path):

@@ -13,7 +13,6 @@ def export(
     *,
     format: str,
     output: Path | None = None,
-    config: Path | None = None,
     refinements: int = 0,
 ) -> None:
     """Write one realisation of a finished study for other tools.
@@ -26,8 +25,6 @@ def export(
         nc, mat: reduced model; uff, csv: dynamic stiffness; vtu, npz: shape; inp: CalculiX; or all.
     output : Path, optional
         File, or folder for all formats; else FOLDER/export with the usual names.
-    config : Path, optional
-        YAML file of the study; else the one in results/NAME/cube.nc.
     refinements : int
         Halve the elements so often before.
     """
@@ -40,7 +37,7 @@ def export(
     names = list(FORMATS) if format == "all" else [format]
     formats = {name: FORMATS.choice(name) for name in names}
     try:
-        contents = contents_of(recorded_task(folder, config), folder / "crumple.nc", refinements)
+        contents = contents_of(recorded_task(folder), folder / "crumple.nc", refinements)
         for name, kind in formats.items():
             path = _destination(folder, kind.filename, output, several=format == "all")
             write(contents, name, path)

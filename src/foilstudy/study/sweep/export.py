@@ -10,7 +10,7 @@ from foilstudy.base.errors import Refusal
 from foilstudy.base.files import written_whole
 from foilstudy.base.provenance import provenance
 from foilstudy.base.record import MACHINE_FAULTS, read_record
-from foilstudy.config import ResponseTask, StudyConfig, load_config
+from foilstudy.config import ResponseTask
 from foilstudy.config.scene import dynamics_of
 from foilstudy.export.contents import Contents
 from foilstudy.export.formats import FORMATS
@@ -18,49 +18,12 @@ from foilstudy.export.write import write
 from foilstudy.pipeline.crumpled import Crumpled
 
 README = "README.txt"
-_REALISATIONS = 3
-"""Folders from a realisation up to the folder of all: seed, overlength, thickness."""
 
 
-def recorded_task(folder: Path, config: Path | None = None) -> ResponseTask:
-    """Foil, damping and band of a realisation; its records hold shape and status only.
-
-    Parameters
-    ----------
-    folder : Path
-        ``results/NAME/realisations/THICKNESS/HEIGHT/SEED``.
-    config : Path, optional
-        YAML file of the study; without it, what stands in ``results/NAME/cube.nc``.
-
-    Raises
-    ------
-    Refusal
-        If the folder is none of a realisation, or if the configuration is not known.
-    """
-    place = folder.resolve()
-    if len(place.parents) <= _REALISATIONS:
-        raise Refusal(
-            f"{folder}: is not the folder of a realisation, such as "
-            "results/NAME/realisations/t500um/h170mm/0."
-        )
-    study = _study(config, place.parents[_REALISATIONS])
-    return study.response_task(study.cell(*place.parts[-_REALISATIONS:]))
-
-
-def _study(config: Path | None, results: Path) -> StudyConfig:
-    if config is not None:
-        return load_config(config)
-    cube = results / "cube.nc"
-    if not cube.is_file():
-        raise Refusal(
-            f"{cube}: there is no such file, so that the configuration is not known; finish the "
-            "study, or give it with --config."
-        )
-    import netCDF4
-    import yaml
-
-    with netCDF4.Dataset(cube) as file:
-        return load_config(yaml.safe_load(file.config))
+def recorded_task(folder: Path) -> ResponseTask:
+    """Foil, damping, reduction and band of a finished realisation, from its ``response.nc``."""
+    _, attributes = read_record(folder / "response.nc")
+    return ResponseTask.model_validate_json(attributes["task"])
 
 
 def contents_of(task: ResponseTask, crumple_path: Path, refinements: int = 0) -> Contents:
