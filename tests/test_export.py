@@ -407,7 +407,7 @@ def realisation(coarse_crumple, tmp_path):
 
 def test_realisation_leaves_the_formats_and_what_they_are(realisation):
     out = realisation.folder / "export"
-    export_realisation(realisation.task, realisation.folder / "crumple.nc", out, ["csv", "npz"])
+    export_realisation(realisation.task, realisation.folder / "crumple.nc", out, "csv", "npz")
     names = sorted(path.name for path in out.iterdir())
     assert names == ["README.txt", "frequency_response.csv", "shape.npz"]
     readme = (out / "README.txt").read_text()
@@ -417,7 +417,7 @@ def test_realisation_leaves_the_formats_and_what_they_are(realisation):
 def test_realisation_without_equilibrium_leaves_its_reason_alone(realisation):
     realisation.record("not_converged", "residual 1e-3")
     out = realisation.folder / "export"
-    export_realisation(realisation.task, realisation.folder / "crumple.nc", out, list(FORMATS))
+    export_realisation(realisation.task, realisation.folder / "crumple.nc", out, *FORMATS)
     assert [path.name for path in out.iterdir()] == ["README.txt"]
     assert "not_converged (residual 1e-3)" in (out / "README.txt").read_text()
     with pytest.raises(ValueError, match="only an equilibrium is exported"):
@@ -428,7 +428,7 @@ def test_format_that_cannot_hold_the_damping_leaves_the_others(realisation):
     dynamics = realisation.task.dynamics.model_copy(update={"damping": "structural"})
     task = realisation.task.model_copy(update={"dynamics": dynamics})
     out = realisation.folder / "export"
-    export_realisation(task, realisation.folder / "crumple.nc", out, ["mat", "csv"])
+    export_realisation(task, realisation.folder / "crumple.nc", out, "mat", "csv")
     assert sorted(p.name for p in out.iterdir()) == ["README.txt", "frequency_response.csv"]
     assert "reduced.mat: not written" in (out / "README.txt").read_text()
 

@@ -7,9 +7,13 @@ import signal
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 import pytest
+from test_workflow import TINY
+
+from foilstudy.config import load_config
 
 SCRIPTS = Path(__file__).parents[1] / "workflow/scripts"
 JOB = [sys.executable, "-I", "-S", str(SCRIPTS / "job.py")]
@@ -112,16 +116,30 @@ def test_a_crash_is_named(worker, tmp_path, name):
     job = run(worker, tmp_path, f"import os; os.kill(os.getpid(), {int(number)})")
     assert job.returncode == 128 + number
     (line,) = job.stderr.splitlines()
-    assert line.startswith(f"script.py: ended by {name}")
+    assert line.startswith(f"ended by {name}")
     assert run(worker, tmp_path, "print('still here')").stdout == "still here\n"
 
 
 def test_a_job_finds_the_modules_of_the_worker_loaded(worker, tmp_path):
     content = "import sys; print('foilstudy.study.sweep.crumple' in sys.modules)"
     assert run(worker, tmp_path, content).stdout == "True\n"
-    # what one script imports is there for the next
-    run(worker, tmp_path, "import this")
-    assert run(worker, tmp_path, "import sys; print('this' in sys.modules)").stdout == "True\n"
+    # what one job names is there for the next
+    run(worker, tmp_path, "", "plot.mac:draw_mac")
+    content = "import sys; print('foilstudy.plot.mac' in sys.modules)"
+    assert run(worker, tmp_path, content).stdout == "True\n"
+
+
+def test_a_call_gets_what_its_function_is_made_for(socket, tmp_path):
+    """JSON, a path, and texts as many as there are; a refusal is a sentence."""
+    study = load_config(TINY)
+    task = study.response_task(study.cells()[0]).model_dump_json()
+    command = [*JOB, str(SCRIPTS / "call.py"), "study.sweep.export:export_realisation"]
+    job = partial(subprocess.run, env=environment(socket), capture_output=True, text=True)
+    done = job([*command, task, str(tmp_path / "crumple.nc"), str(tmp_path), "csv", "mesh"])
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr.startswith("'mesh' is not a known export format; use one of nc, mat")
+    done = job([*command, task, str(tmp_path / "crumple.nc"), str(tmp_path), "csv", "npz"])
+    assert "FileNotFoundError" in done.stderr and "crumple.nc" in done.stderr
 
 
 def test_the_worker_that_is_forked_has_one_thread(worker, tmp_path):
@@ -183,7 +201,7 @@ def test_jobs_end_with_a_killed_worker(tmp_path, number):
     wait_until(lambda: is_gone(process))
     _, said = client.communicate()
     assert client.returncode == 1
-    assert said.startswith("script.py: the worker of the study ended before this job")
+    assert said.startswith("the worker of the study ended before this job")
     # the next ones do without
     assert run(study.socket, tmp_path, "print('on its own')").stdout == "on its own\n"
     study.kill()

@@ -24,16 +24,16 @@ def answers(command):
             return
 
 
-def status_of(word, name):
+def status_of(word):
     """What this process ends with."""
     if not word:
-        return f"{name}: the worker of the study ended before this job; start the study again"
+        return "the worker of the study ended before this job; start the study again"
     code = int(word)
     if code >= 0:
         return code
     why = ", as by a machine short of memory" if -code == signal.SIGKILL else ""
     kind = signal.Signals(-code).name
-    print(f"{name}: ended by {kind} ({signal.strsignal(-code)}{why})", file=sys.stderr)
+    print(f"ended by {kind} ({signal.strsignal(-code)}{why})", file=sys.stderr)
     return 128 - code
 
 
@@ -41,5 +41,5 @@ command = sys.argv[1:]
 signal.signal(signal.SIGINT, signal.SIG_DFL)  # a traceback from here would tell nothing
 said = answers(command)
 if next(said, None):
-    sys.exit(status_of(next(said, ""), os.path.basename(command[0])))
+    sys.exit(status_of(next(said, "")))
 os.execv(sys.executable, [sys.executable, "-P", *command])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import traceback
-from collections.abc import Iterable
 from pathlib import Path
 
 from foilstudy.base.errors import Refusal
@@ -45,8 +44,6 @@ def contents_of(task: ResponseTask, crumple_path: Path, refinements: int = 0) ->
     SolveError
         If a factorisation or the reduction fails.
     """
-    if not crumple_path.is_file():
-        raise Refusal(f"{crumple_path}: there is no such record; run the study, or check the path.")
     if refinements < 0:
         raise Refusal(f"refinements is {refinements}; elements can be halved, not joined.")
     values, attributes = read_record(crumple_path)
@@ -72,9 +69,7 @@ def contents_of(task: ResponseTask, crumple_path: Path, refinements: int = 0) ->
         raise Refusal(f"{crumple_path}: {problem}") from None
 
 
-def export_realisation(
-    task: ResponseTask, crumple_path: Path, folder: Path, formats: Iterable[str]
-) -> None:
+def export_realisation(task: ResponseTask, crumple_path: Path, folder: Path, *formats: str) -> None:
     """Write the formats into a folder, and beside them a text that says what each is.
 
     A realisation or a format that cannot be exported leaves its reason in that text, so that a
