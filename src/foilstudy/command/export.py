@@ -36,17 +36,13 @@ def export(
 
     names = list(FORMATS) if format == "all" else [format]
     formats = {name: FORMATS.choice(name) for name in names}
+    place = output or folder / "export"
+    is_file = output is not None and format != "all" and not output.is_dir()
     try:
         contents = contents_of(recorded_task(folder), folder / "crumple.nc", refinements)
         for name, kind in formats.items():
-            path = _destination(folder, kind.filename, output, several=format == "all")
+            path = place if is_file else place / kind.filename
             write(contents, name, path)
             print(f"wrote {path}")
     except SolveError as problem:
         raise Refusal(f"{folder}: {problem}") from None
-
-
-def _destination(folder: Path, filename: str, output: Path | None, several: bool) -> Path:
-    if output is None:
-        return folder / "export" / filename
-    return output / filename if several or output.is_dir() else output

@@ -11,6 +11,7 @@ import jinja2
 import pandas as pd
 import xarray as xr
 
+from foilstudy.base import numerals
 from foilstudy.base.files import written_whole
 from foilstudy.base.reference import published
 from foilstudy.plot.save import inches_wide
@@ -25,7 +26,6 @@ from foilstudy.present.report import (
     laws,
     mesh,
     modes,
-    numerals,
     prestress,
     viewer,
 )
