@@ -75,7 +75,8 @@ class Finished:
             rows.append(table.assign(configuration=configuration))
         cells = pd.concat(rows).dropna()
         cells["elements"] = [each.elements[0] for each in cells.configuration]
-        cells["slenderness"] = [each.slenderness for each in cells.configuration]
+        thickness_mm = 1e-3 * np.array([each.thickness_um for each in cells.configuration])
+        cells["slenderness"] = config.sheet.diameter_mm / 2 / thickness_mm
         jobs = [*_times(folder, "crumple/*"), *_times(folder, "response/*")]
         gathered = [seconds for name in GATHERED for seconds in _times(folder, name)]
         beyond = (sum(jobs) - cells[PHYSICS].to_numpy().sum()) / len(jobs) if jobs else np.nan
@@ -230,8 +231,8 @@ def judged(study: Finished, model: CostModel) -> str:
     cells, cost = study.cells, expected(study.config, model)
     place = {(c.thickness_um, c.reference_height_mm): c for c in cost.configurations}
     asked = [place[each.thickness_um, each.reference_height_mm] for each in cells.configuration]
-    crumple = np.array([each.crumple_seconds for each in asked])
-    response = np.array([each.response_seconds for each in asked])
+    crumple = np.array([each.seconds_of["crumple"] for each in asked])
+    response = np.array([each.seconds_of["response"] for each in asked])
     jobs = 2 * model.job
     measured = cells[PHYSICS].sum(axis=1).to_numpy() + jobs
     ratio = measured / (crumple + response + jobs)
@@ -266,7 +267,7 @@ def main(folders: Sequence[str]) -> None:
     if kept:
         model = replace(model, projection_memory_mb=projection_memory_mb(kept[0], model))
     for name, value in asdict(model).items():
-        print(f"    {name}={value:.3g},")
+        print(f"    {name}: float = {value:.3g}")
     for study in studies:
         print("fitted with it,    ", judged(study, model))
         others = [other for other in studies if other is not study]

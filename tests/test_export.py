@@ -69,7 +69,7 @@ def contents(coarse_crumple):
 def folder(contents, tmp_path_factory):
     """Every format, written once."""
     folder = tmp_path_factory.mktemp("export")
-    for name, kind in FORMATS.items():
+    for name, kind in FORMATS.choices.items():
         write(contents, name, folder / kind.filename)
     return folder
 
@@ -362,7 +362,7 @@ def test_calculix_deck_states_foil_steps_and_what_to_expect(contents, folder):
 
 
 def test_unknown_format_is_refused_naming_the_known_ones(contents, tmp_path):
-    with pytest.raises(ValueError, match=r"'stl' is not an export format; use one of nc, mat"):
+    with pytest.raises(ValueError, match=r"'stl' is not a known export format; use one of nc, mat"):
         write(contents, "stl", tmp_path / "shape.stl")
     assert list(tmp_path.iterdir()) == []
 
@@ -400,23 +400,24 @@ def realisation(coarse_crumple, tmp_path):
         write_record(folder / "crumple.nc", quantities(values), attributes)
 
     record("converged")
-    (tmp_path / "study.yaml").write_text(study.to_yaml())
-    return SimpleNamespace(folder=folder, task=study.response_task(cell), record=record)
+    response = study.response_task(cell)
+    write_record(folder / "response.nc", {}, {"task": response.model_dump_json()})
+    return SimpleNamespace(folder=folder, task=response, record=record)
 
 
 def test_realisation_leaves_the_formats_and_what_they_are(realisation):
     out = realisation.folder / "export"
-    export_realisation(realisation.task, realisation.folder / "crumple.nc", out, ["csv", "npz"])
+    export_realisation(realisation.task, realisation.folder / "crumple.nc", out, "csv", "npz")
     names = sorted(path.name for path in out.iterdir())
     assert names == ["README.txt", "frequency_response.csv", "shape.npz"]
     readme = (out / "README.txt").read_text()
-    assert all(FORMATS[name].content in readme for name in ("csv", "npz"))
+    assert all(FORMATS.choices[name].words in readme for name in ("csv", "npz"))
 
 
 def test_realisation_without_equilibrium_leaves_its_reason_alone(realisation):
     realisation.record("not_converged", "residual 1e-3")
     out = realisation.folder / "export"
-    export_realisation(realisation.task, realisation.folder / "crumple.nc", out, list(FORMATS))
+    export_realisation(realisation.task, realisation.folder / "crumple.nc", out, *FORMATS)
     assert [path.name for path in out.iterdir()] == ["README.txt"]
     assert "not_converged (residual 1e-3)" in (out / "README.txt").read_text()
     with pytest.raises(ValueError, match="only an equilibrium is exported"):
@@ -427,23 +428,20 @@ def test_format_that_cannot_hold_the_damping_leaves_the_others(realisation):
     dynamics = realisation.task.dynamics.model_copy(update={"damping": "structural"})
     task = realisation.task.model_copy(update={"dynamics": dynamics})
     out = realisation.folder / "export"
-    export_realisation(task, realisation.folder / "crumple.nc", out, ["mat", "csv"])
+    export_realisation(task, realisation.folder / "crumple.nc", out, "mat", "csv")
     assert sorted(p.name for p in out.iterdir()) == ["README.txt", "frequency_response.csv"]
     assert "reduced.mat: not written" in (out / "README.txt").read_text()
 
 
 def test_command_line_writes_one_format_to_a_file(realisation, tmp_path):
     target = tmp_path / "mine.csv"
-    config = tmp_path / "study.yaml"
-    folder = str(realisation.folder)
-    main(["export", folder, "--format=csv", f"--output={target}", f"--config={config}"])
+    main(["export", str(realisation.folder), "--format=csv", f"--output={target}"])
     assert target.read_text().startswith("frequency (Hz),transfer axial real (N/m)")
 
 
-def test_command_line_writes_every_format_and_the_shape_comes_back(realisation, tmp_path, capsys):
-    config = tmp_path / "study.yaml"
-    main(["export", str(realisation.folder), "--format=all", f"--config={config}"])
-    paths = [realisation.folder / "export" / kind.filename for kind in FORMATS.values()]
+def test_command_line_writes_every_format_and_the_shape_comes_back(realisation, capsys):
+    main(["export", str(realisation.folder), "--format=all"])
+    paths = [realisation.folder / "export" / kind.filename for kind in FORMATS.choices.values()]
     assert capsys.readouterr().out.splitlines() == [f"wrote {path}" for path in paths]
     record = contents_of(realisation.task, realisation.folder / "crumple.nc").crumple
     shape = dict(zip(FORMATS, paths))["npz"]
@@ -453,18 +451,18 @@ def test_command_line_writes_every_format_and_the_shape_comes_back(realisation, 
     np.testing.assert_allclose(back.points, expected, atol=1e-14)
 
 
-def test_command_line_refuses_in_one_sentence(realisation, tmp_path):
+def test_command_line_refuses_in_one_sentence(realisation):
     """`SystemExit` with a text prints it and ends with code 1."""
     with pytest.raises(SystemExit) as unknown:
         main(["export", str(realisation.folder), "--format=stl"])
     known = ", ".join(FORMATS)
-    assert unknown.value.code == f"'stl' is not an export format; use one of {known}."
-    with pytest.raises(SystemExit, match=r"^\S+cube.nc: there is no such file, .*--config\.$"):
-        main(["export", str(realisation.folder), "--format=csv"])
-    config = tmp_path / "study.yaml"
+    assert unknown.value.code == f"'stl' is not a known export format; use one of {known}."
     realisation.record("diverged", "step 12")
     with pytest.raises(SystemExit, match=r"its status is diverged \(step 12\)"):
-        main(["export", str(realisation.folder), "--format=csv", f"--config={config}"])
+        main(["export", str(realisation.folder), "--format=csv"])
+    (realisation.folder / "response.nc").unlink()
+    with pytest.raises(SystemExit, match=r"^\S+response.nc: No such file or directory; check path"):
+        main(["export", str(realisation.folder), "--format=csv"])
 
 
 def test_study_exports_every_realisation_if_formats_are_given(tmp_path):

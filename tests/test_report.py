@@ -22,6 +22,7 @@ from synthetic import (
     write_response,
 )
 
+from foilstudy.base.numerals import fixed, number, percent_range
 from foilstudy.base.record import read_record
 from foilstudy.present.configuration import configuration
 from foilstudy.present.files import StudyFiles
@@ -37,7 +38,6 @@ from foilstudy.present.report.mesh import (
     share_sentence,
     stated_error_sentence,
 )
-from foilstudy.present.report.numerals import fixed, number, percent_range
 from foilstudy.present.report.prestress import prestress_findings, relaxed_findings, relaxed_rows
 from foilstudy.present.report.viewer import (
     MODE_NODES_MAX,

@@ -1,14 +1,19 @@
 """A job of the worker: as one of its own, and gone when the study or its client is."""
 
 import os
+import resource
 import shutil
 import signal
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 import pytest
+from test_workflow import TINY
+
+from foilstudy.config import load_config
 
 SCRIPTS = Path(__file__).parents[1] / "workflow/scripts"
 JOB = [sys.executable, "-I", "-S", str(SCRIPTS / "job.py")]
@@ -32,9 +37,10 @@ pytestmark = pytest.mark.skipif(not hasattr(os, "pidfd_open"), reason="no worker
 class Study:
     """A process that holds a worker."""
 
-    def __init__(self):
-        command = [sys.executable, "-c", STUDY, sys.executable, "-P", str(SCRIPTS / "worker.py")]
-        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    def __init__(self, *words, log=None):
+        words = words or (str(SCRIPTS / "worker.py"),)
+        command = [sys.executable, "-c", STUDY, sys.executable, "-P", *words]
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=log, text=True)
         worker, self.socket = self.process.stdout.readline().split()
         self.worker = int(worker)
 
@@ -110,16 +116,30 @@ def test_a_crash_is_named(worker, tmp_path, name):
     job = run(worker, tmp_path, f"import os; os.kill(os.getpid(), {int(number)})")
     assert job.returncode == 128 + number
     (line,) = job.stderr.splitlines()
-    assert line.startswith(f"script.py: ended by {name}")
+    assert line.startswith(f"ended by {name}")
     assert run(worker, tmp_path, "print('still here')").stdout == "still here\n"
 
 
 def test_a_job_finds_the_modules_of_the_worker_loaded(worker, tmp_path):
     content = "import sys; print('foilstudy.study.sweep.crumple' in sys.modules)"
     assert run(worker, tmp_path, content).stdout == "True\n"
-    # what one script imports is there for the next
-    run(worker, tmp_path, "import this")
-    assert run(worker, tmp_path, "import sys; print('this' in sys.modules)").stdout == "True\n"
+    # what one job names is there for the next
+    run(worker, tmp_path, "", "plot.mac:draw_mac")
+    content = "import sys; print('foilstudy.plot.mac' in sys.modules)"
+    assert run(worker, tmp_path, content).stdout == "True\n"
+
+
+def test_a_call_gets_what_its_function_is_made_for(socket, tmp_path):
+    """JSON, a path, and texts as many as there are; a refusal is a sentence."""
+    study = load_config(TINY)
+    task = study.response_task(study.cells()[0]).model_dump_json()
+    command = [*JOB, str(SCRIPTS / "call.py"), "study.sweep.export:export_realisation"]
+    job = partial(subprocess.run, env=environment(socket), capture_output=True, text=True)
+    done = job([*command, task, str(tmp_path / "crumple.nc"), str(tmp_path), "csv", "mesh"])
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr.startswith("'mesh' is not a known export format; use one of nc, mat")
+    done = job([*command, task, str(tmp_path / "crumple.nc"), str(tmp_path), "csv", "npz"])
+    assert "FileNotFoundError" in done.stderr and "crumple.nc" in done.stderr
 
 
 def test_the_worker_that_is_forked_has_one_thread(worker, tmp_path):
@@ -181,8 +201,52 @@ def test_jobs_end_with_a_killed_worker(tmp_path, number):
     wait_until(lambda: is_gone(process))
     _, said = client.communicate()
     assert client.returncode == 1
-    assert said.startswith("script.py: the worker of the study ended before this job")
+    assert said.startswith("the worker of the study ended before this job")
     # the next ones do without
     assert run(study.socket, tmp_path, "print('on its own')").stdout == "on its own\n"
     study.kill()
     shutil.rmtree(Path(study.socket).parent, ignore_errors=True)
+
+
+# A worker whose machine has no memory for a process, or no descriptor to watch one.
+FAULTY = """
+import os, sys
+from foilstudy.study.worker import work
+def fail(process=None):
+    if process != os.getpid():
+        raise OSError("the machine is full")
+    return watched(process)
+watched = os.pidfd_open
+setattr(os, sys.argv[1], fail)
+work(again=sys.argv[2:] == ["again"])
+"""
+WHOSE = "import os; print(os.getppid())"
+
+
+@pytest.mark.parametrize("call", ["fork", "pidfd_open"])
+def test_a_job_that_the_worker_cannot_start_runs_by_itself(tmp_path, call):
+    with (tmp_path / "worker.log").open("w") as log:
+        study = Study("-c", FAULTY, call, log=log)
+    for _ in range(2):  # the worker stays
+        job = run(study.socket, tmp_path, WHOSE)
+        assert (job.returncode, job.stdout, job.stderr) == (0, f"{os.getpid()}\n", "")
+    study.kill()
+    assert (tmp_path / "worker.log").read_text().count("OSError: the machine is full") == 2
+
+
+@pytest.mark.parametrize("left", [0, 2, 4])
+def test_a_worker_short_of_descriptors_keeps_its_jobs(tmp_path, left):
+    """None for a connection; one, but not for the streams of a job; enough for one job more."""
+    study = Study()
+    client, process = asleep(study.socket, tmp_path)
+    descriptors = [int(path.name) for path in Path(f"/proc/{study.worker}/fd").iterdir()]
+    assert sorted(descriptors) == list(range(len(descriptors)))
+    _, most = resource.prlimit(study.worker, resource.RLIMIT_NOFILE)
+    resource.prlimit(study.worker, resource.RLIMIT_NOFILE, (len(descriptors) + left, most))
+    starter = study.worker if left == 4 else os.getpid()
+    for _ in range(2):
+        job = run(study.socket, tmp_path, WHOSE)
+        assert (job.returncode, job.stdout, job.stderr) == (0, f"{starter}\n", "")
+    assert not is_gone(process)
+    study.kill()
+    client.communicate()

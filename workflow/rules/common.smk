@@ -41,10 +41,11 @@ RESULTS_LOCKS = []
 # Results of another release of the package count as outdated, like those of another task.
 VERSION = version("foilstudy")
 # The interpreter that runs Snakemake, whether or not its environment is activated. A rule writes
-# "{RUN}/NAME.py arguments". Plain commands can be repeated by hand, and spare each job the import
-# of Snakemake by `script:`; job.py spares it that of everything else, where there is a worker.
-SCRIPTS = str(Path(workflow.basedir, "workflow/scripts"))
-RUN = f"{shlex.quote(sys.executable)} -I -S {shlex.quote(SCRIPTS)}/job.py {shlex.quote(SCRIPTS)}"
+# "{RUN} MODULE:FUNCTION words". Plain commands can be repeated by hand, and spare each job the
+# import of Snakemake by `script:`; job.py spares it that of everything else, where there is a
+# worker.
+SCRIPTS = Path(workflow.basedir, "workflow/scripts")
+RUN = shlex.join([sys.executable, "-I", "-S", f"{SCRIPTS}/job.py", f"{SCRIPTS}/call.py"])
 # Another study's: this one may be a job of it, or run on another machine.
 os.environ.pop("FOILSTUDY_WORKER", None)
 

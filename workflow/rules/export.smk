@@ -24,4 +24,5 @@ rule export:
     message:
         "export {wildcards.thickness} {wildcards.overlength} seed {wildcards.seed}"
     shell:
-        "{RUN}/export.py {params.task:q} {input} {output} {params.formats} > {log} 2>&1"
+        "{RUN} study.sweep.export:export_realisation {params.task:q} {input} {output}"
+        " {params.formats} > {log} 2>&1"

@@ -16,7 +16,7 @@ rule crumple:
     message:
         "crumple {wildcards.thickness} {wildcards.overlength} seed {wildcards.seed}"
     shell:
-        "{RUN}/crumple.py {params.task:q} {output} > {log} 2>&1"
+        "{RUN} study.sweep.crumple:crumple_job {params.task:q} {output} > {log} 2>&1"
 
 
 rule response:
@@ -38,7 +38,7 @@ rule response:
     message:
         "response {wildcards.thickness} {wildcards.overlength} seed {wildcards.seed}"
     shell:
-        "{RUN}/response.py {params.task:q} {input} {output} > {log} 2>&1"
+        "{RUN} study.sweep.respond:respond_job {params.task:q} {input} {output} > {log} 2>&1"
 
 
 rule refine:
@@ -59,7 +59,7 @@ rule refine:
     message:
         "refine {wildcards.thickness} {wildcards.overlength} seed {wildcards.seed}"
     shell:
-        "{RUN}/refine.py {params.task:q} {input} {output} > {log} 2>&1"
+        "{RUN} study.sweep.relax_refined:refine_job {params.task:q} {input} {output} > {log} 2>&1"
 
 
 rule cylinder:
@@ -77,4 +77,4 @@ rule cylinder:
     message:
         "stiffness of the uncrumpled cylinders"
     shell:
-        "{RUN}/cylinder.py {params.study:q} {output} > {log} 2>&1"
+        "{RUN} study.sweep.cylinder:cylinder_bounds {params.study:q} {output} > {log} 2>&1"

@@ -37,7 +37,7 @@ rule cube:
     message:
         "cube"
     shell:
-        "{RUN}/cube.py {params.study:q} {RESULTS} {output} > {log} 2>&1"
+        "{RUN} study.sweep.cube:gather {params.study:q} {RESULTS} {output} > {log} 2>&1"
 
 
 rule tables:
@@ -62,7 +62,7 @@ rule tables:
     message:
         "tables"
     shell:
-        "{RUN}/tables.py {input} {RESULTS} > {log} 2>&1"
+        "{RUN} present.jobs:tables {input} > {log} 2>&1"
 
 
 def figure_input(need, files):
@@ -99,7 +99,7 @@ rule figure:
     message:
         "figure {wildcards.figure}"
     shell:
-        "{RUN}/figure.py {wildcards.figure} {RESULTS} {input.crumples} > {log} 2>&1"
+        "{RUN} present.jobs:figure {wildcards.figure} {RESULTS} {input.crumples} > {log} 2>&1"
 
 
 rule report:
@@ -125,4 +125,4 @@ rule report:
     message:
         "report"
     shell:
-        "{RUN}/report.py {RESULTS} {output} {input.crumples} > {log} 2>&1"
+        "{RUN} present.jobs:report {output} {input.crumples} > {log} 2>&1"

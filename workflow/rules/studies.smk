@@ -36,8 +36,8 @@ for side in STUDIES.values():
             message:
                 f"{side.name}: {part.name} of {{wildcards.case}}"
             shell:
-                "{RUN}/measure.py {params.study} {params.part} {wildcards.case} {output[0]} {input}"
-                " > {log} 2>&1"
+                "{RUN} study.jobs:measure {params.study} {params.part} {wildcards.case} {output[0]}"
+                " {input} > {log} 2>&1"
 
     rule:
         name:
@@ -57,7 +57,7 @@ for side in STUDIES.values():
         message:
             f"{side.name}: tables and figures"
         shell:
-            "{RUN}/present.py {params.study} {params.folder} > {log} 2>&1"
+            "{RUN} study.jobs:present {params.study} {params.folder} > {log} 2>&1"
 
     # Apart from the tables, so that a study that misses its demands leaves all results behind.
     rule:
@@ -74,4 +74,4 @@ for side in STUDIES.values():
         message:
             f"{side.title}: see {FOLDER}"
         shell:
-            "{RUN}/check.py {params.study} {params.folder} > {log} 2>&1"
+            "{RUN} study.jobs:check {params.study} {params.folder} > {log} 2>&1"

@@ -5,6 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from foilstudy.base.errors import Refusal
+
 if TYPE_CHECKING:
     import xarray as xr
 
@@ -26,26 +28,26 @@ def open_cube(path: str | Path) -> xr.Dataset:
 
     Raises
     ------
-    ValueError
+    Refusal
         If there is no such file, or if it is not a cube of this package.
     """
     import xarray as xr  # half a second; only those who open a cube wait for it
 
     path = Path(path)
     if not path.exists():
-        raise ValueError(f"{path} does not exist; run the study first or correct the path.")
+        raise Refusal(f"{path} does not exist; run the study first or correct the path.")
     if not path.is_file():
-        raise ValueError(f"{path} is not a file; give the cube.nc of a study.")
+        raise Refusal(f"{path} is not a file; give the cube.nc of a study.")
     try:
         with xr.open_dataset(path, engine="netcdf4") as file:
             cube = file.load()
     except (OSError, ValueError, RuntimeError) as error:
-        raise ValueError(
+        raise Refusal(
             f"{path} is not a NetCDF file that can be read ({error}); give the cube.nc of a study."
         ) from error
     parts = {"dynamic_stiffness_re", "dynamic_stiffness_im"}
     if cube.attrs.get("Conventions") != CONVENTION or not parts <= set(cube):
-        raise ValueError(
+        raise Refusal(
             f"{path} is a NetCDF file but not a cube of foilstudy; give the cube.nc of a study, "
             "not the record of one realisation."
         )

@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
-__all__ = ["ConfigError"]
+__all__ = ["ConfigError", "Refusal"]
 
 
-class ConfigError(ValueError):
+class Refusal(ValueError):
+    """What was asked for cannot be done: one sentence that says what, where and what to do.
+
+    Any other `ValueError` is a bug, or a fault of a caller in Python, and keeps its traceback.
+    """
+
+
+class ConfigError(Refusal):
     """A study configuration that cannot be run.
 
     Parameters

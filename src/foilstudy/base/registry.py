@@ -12,10 +12,12 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import Any
 
+from foilstudy.base.errors import Refusal
+
 __all__ = ["Choice", "Registry", "UnknownChoice"]
 
 
-class UnknownChoice(KeyError, ValueError):
+class UnknownChoice(Refusal, KeyError):
     """A name that a registry does not have; the text says which ones it has."""
 
     def __str__(self) -> str:
@@ -59,10 +61,20 @@ class Registry(Mapping[str, Any]):
         self.choices = dict(choices)
 
     def __getitem__(self, name: str) -> Any:
+        return self.choice(name).load()
+
+    def choice(self, name: str) -> Choice:
+        """The entry itself, nothing loaded.
+
+        Raises
+        ------
+        UnknownChoice
+            Naming the known ones.
+        """
         if name not in self.choices:
             known = ", ".join(self.choices)
             raise UnknownChoice(f"{name!r} is not a known {self.kind}; use one of {known}.")
-        return self.choices[name].load()
+        return self.choices[name]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.choices)

@@ -11,6 +11,7 @@ import json
 from dataclasses import MISSING, field, fields, is_dataclass
 from typing import Any, TypeVar, get_type_hints
 
+from foilstudy.base.errors import Refusal
 from foilstudy.base.registry import Registry
 
 __all__ = ["choice_field", "dumped", "loaded", "plain", "restored"]
@@ -40,13 +41,13 @@ def restored(kind: type[T], content: dict[str, Any]) -> T:
 
     Raises
     ------
-    ValueError
+    Refusal
         If the content has other fields, as from another release of the package.
     """
     hints = get_type_hints(kind)
     known = {item.name: item for item in fields(kind)}
     content = {name: value for name, value in content.items() if name != "kind" or "kind" in known}
-    refusal = ValueError(
+    refusal = Refusal(
         f"a recorded {kind.__name__} has the fields {', '.join(content)}, not {', '.join(known)}; "
         "it is from another release: compute the record again."
     )

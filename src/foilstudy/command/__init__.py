@@ -13,6 +13,8 @@ from importlib.metadata import version
 
 from cyclopts import App
 
+from foilstudy.base.errors import Refusal
+
 from .check import check
 from .export import export
 from .report import report
@@ -32,7 +34,9 @@ for command in (check, run, export, report):
 
 
 def main(words: Sequence[str] | None = None) -> None:
-    """Do what the words say; a problem of theirs is a sentence on stderr and exit code 1.
+    """Do what the words say; what they ask for and cannot have is a sentence and exit code 1.
+
+    A fault of the package keeps its traceback.
 
     Parameters
     ----------
@@ -46,7 +50,7 @@ def main(words: Sequence[str] | None = None) -> None:
     """
     try:
         app(words)
-    except ValueError as problem:
+    except Refusal as problem:
         sys.exit(str(problem))
     except OSError as problem:
         if problem.filename is None:  # a fault of the machine, not of the words

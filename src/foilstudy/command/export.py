@@ -13,7 +13,6 @@ def export(
     *,
     format: str,
     output: Path | None = None,
-    config: Path | None = None,
     refinements: int = 0,
 ) -> None:
     """Write one realisation of a finished study for other tools.
@@ -26,30 +25,24 @@ def export(
         nc, mat: reduced model; uff, csv: dynamic stiffness; vtu, npz: shape; inp: CalculiX; or all.
     output : Path, optional
         File, or folder for all formats; else FOLDER/export with the usual names.
-    config : Path, optional
-        YAML file of the study; else the one in results/NAME/cube.nc.
     refinements : int
         Halve the elements so often before.
     """
-    from foilstudy.export.formats import FORMATS, check_format
+    from foilstudy.base.errors import Refusal
+    from foilstudy.export.formats import FORMATS
     from foilstudy.export.write import write
     from foilstudy.linalg import SolveError
     from foilstudy.study.sweep.export import contents_of, recorded_task
 
     names = list(FORMATS) if format == "all" else [format]
-    for name in names:
-        check_format(name)
+    formats = {name: FORMATS.choice(name) for name in names}
+    place = output or folder / "export"
+    is_file = output is not None and format != "all" and not output.is_dir()
     try:
-        contents = contents_of(recorded_task(folder, config), folder / "crumple.nc", refinements)
-        for name in names:
-            path = _destination(folder, FORMATS[name].filename, output, several=format == "all")
+        contents = contents_of(recorded_task(folder), folder / "crumple.nc", refinements)
+        for name, kind in formats.items():
+            path = place if is_file else place / kind.filename
             write(contents, name, path)
             print(f"wrote {path}")
     except SolveError as problem:
-        raise ValueError(f"{folder}: {problem}") from None
-
-
-def _destination(folder: Path, filename: str, output: Path | None, several: bool) -> Path:
-    if output is None:
-        return folder / "export" / filename
-    return output / filename if several or output.is_dir() else output
+        raise Refusal(f"{folder}: {problem}") from None

@@ -9,6 +9,8 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from foilstudy.base.errors import Refusal
+
 from .options import Cores, read_study
 
 __all__ = ["run", "study_folder"]
@@ -37,7 +39,7 @@ def run(
     folder, config = study_folder(), file.resolve()
     snakemake = Path(sys.executable).with_name("snakemake")
     if not snakemake.is_file():
-        raise ValueError(
+        raise Refusal(
             f"{snakemake}: there is no Snakemake beside this Python; install foilstudy[workflow]."
         )
     os.chdir(folder)
@@ -51,14 +53,14 @@ def study_folder() -> Path:
 
     Raises
     ------
-    ValueError
+    Refusal
         If neither has one.
     """
     checkout = Path(__file__).resolve().parents[3]
     for folder in (Path.cwd(), checkout):
         if (folder / "Snakefile").is_file():
             return folder
-    raise ValueError(
+    raise Refusal(
         f"{Path.cwd()}: there is no Snakefile here, and foilstudy is not installed from a "
         "checkout; change to the folder of the repository."
     )

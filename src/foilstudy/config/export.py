@@ -20,7 +20,7 @@ class Export(Section):
 
     formats: tuple[Literal[tuple(FORMATS)], ...] = unit_field(
         "list of choices",
-        "; ".join(f"`{name}`: {kind.content}" for name, kind in FORMATS.items()) + ".",
+        FORMATS.words,
         (),
         strict=False,
     )

@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from foilstudy.base.errors import Refusal
 from foilstudy.measure.dynamics import (
     Damping,
     DynamicsOptions,
@@ -59,7 +60,7 @@ class Contents:
 
         Raises
         ------
-        ValueError
+        Refusal
             If the reduced model is valid nowhere in the band.
         SolveError
             If a factorisation or the reduction fails.
@@ -70,7 +71,7 @@ class Contents:
             ~(grid > model.valid_to_hz)
         ]  # a model without an estimate is valid as it stands
         if grid.size < 2:
-            raise ValueError(
+            raise Refusal(
                 f"the {model.method} model is wrong by about {model.error_estimate:.2g} already at "
                 f"{options.lowest_hz:g} Hz; set dynamics.reduction: rational_krylov, or raise "
                 "dynamics.tolerance."

@@ -18,7 +18,7 @@ def write(contents: Contents, path: Path) -> None:
 
     Raises
     ------
-    ValueError
+    Refusal
         If the damping is not viscous.
     """
     model = contents.model
@@ -59,7 +59,7 @@ def state_space(contents: Contents) -> dict[str, np.ndarray]:
 
     Raises
     ------
-    ValueError
+    Refusal
         If the damping is not viscous.
     """
     model = contents.model

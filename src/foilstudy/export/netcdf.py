@@ -19,7 +19,7 @@ def write(contents: Contents, path: Path) -> None:
 
     Raises
     ------
-    ValueError
+    Refusal
         If the damping is not viscous.
     """
     model = contents.model

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from foilstudy.base.files import written_whole
 from foilstudy.export.contents import Contents
-from foilstudy.export.formats import FORMATS, check_format
+from foilstudy.export.formats import FORMATS
 
 
 def write(contents: Contents, name: str, path: Path) -> None:
@@ -14,15 +14,15 @@ def write(contents: Contents, name: str, path: Path) -> None:
 
     Raises
     ------
-    ValueError
+    Refusal
         If the format is unknown, or cannot hold this model.
     """
-    check_format(name)
+    suffix = Path(FORMATS.choice(name).filename).suffix
     with written_whole(path) as partial:
         # writers that look at the ending of a name find the one they expect
-        named = partial.with_suffix(partial.suffix + Path(FORMATS[name].filename).suffix)
+        named = partial.with_suffix(partial.suffix + suffix)
         try:
-            FORMATS[name].writer()(contents, named)
+            FORMATS[name](contents, named)
             named.replace(partial)
         finally:
             named.unlink(missing_ok=True)

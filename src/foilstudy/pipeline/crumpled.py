@@ -8,6 +8,7 @@ from typing import Self
 
 import numpy as np
 
+from foilstudy.base.errors import Refusal
 from foilstudy.base.outcome import USABLE
 from foilstudy.base.record import read_record
 from foilstudy.base.spec import dumped, loaded
@@ -148,18 +149,21 @@ class Crumpled(Shape):
 
         Raises
         ------
-        ValueError
+        Refusal
             If the file is no such record, or its realisation has left no shape.
         """
         values, attributes = read_record(Path(path))
         if not {"foil", "mesh", "imperfection", "method"} <= attributes.keys():
-            raise ValueError(f"{path}: is not the record of a crumple; give a crumple.nc.")
+            raise Refusal(f"{path}: is not the record of a crumple; give a crumple.nc.")
         if attributes.get("status") not in USABLE:
-            raise ValueError(
+            raise Refusal(
                 f"{path}: the realisation has left no shape ({attributes.get('status')}: "
                 f"{attributes.get('message')})."
             )
-        return cls.of_record(values, attributes)
+        try:
+            return cls.of_record(values, attributes)
+        except Refusal as problem:
+            raise Refusal(f"{path}: {problem}") from None
 
     @classmethod
     def of_record(cls, values: dict[str, np.ndarray], attributes: dict[str, str]) -> Self:
@@ -167,11 +171,11 @@ class Crumpled(Shape):
 
         Raises
         ------
-        ValueError
+        Refusal
             If the record does not say what it is of, as in releases before 0.3.
         """
         if missing := {"foil", *_RECIPE} - attributes.keys():
-            raise ValueError(
+            raise Refusal(
                 f"the record of the crumple does not say its {', '.join(sorted(missing))}; it is "
                 "from an earlier release: run the study again."
             )

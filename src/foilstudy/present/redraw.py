@@ -47,7 +47,7 @@ def redraw(results: str | Path) -> Redrawn:
 
     Raises
     ------
-    ValueError
+    Refusal
         If there is no cube, or if it is not one of this package.
     """
     results = Path(results)

@@ -7,7 +7,6 @@ and ends as the job ends. Where it finds no worker, it runs the job in a process
 
 from __future__ import annotations
 
-import ast
 import ctypes
 import gc
 import json
@@ -20,17 +19,14 @@ import sys
 import tempfile
 import traceback
 from contextlib import redirect_stdout, suppress
-from dataclasses import dataclass
 from functools import partial
-from importlib import import_module
-from pathlib import Path
+from pkgutil import resolve_name
+from typing import NamedTuple
 
 from foilstudy.base.provenance import git_commit
 from foilstudy.study.sweep.warmup import compile_kernels
 
 _STANDARD_STREAMS = 3
-_REQUEST_TIMEOUT_S = 10.0
-_PR_SET_PDEATHSIG = 1
 
 
 def work(again: bool) -> None:
@@ -75,8 +71,7 @@ def _listening(path: str) -> socket.socket | None:
     return listener
 
 
-@dataclass(frozen=True, eq=False)
-class _Job:
+class _Job(NamedTuple):
     """A child, a descriptor that tells its end, and the connection to who waits for it."""
 
     process: int
@@ -88,46 +83,40 @@ class _Worker:
     def __init__(self, listener: socket.socket):
         self._listener = listener
         self._jobs: set[_Job] = set()
-        self._serving = True
         # every descriptor is registered with what to do when it has something to tell
         self._selector = selectors.DefaultSelector()
         self._selector.register(listener, selectors.EVENT_READ, self._start)
-        self._selector.register(0, selectors.EVENT_READ, self._stop)
+        self._selector.register(0, selectors.EVENT_READ, sys.exit)
 
     def serve(self) -> None:
         # Ctrl-C reaches the whole group: it ends the study, and that ends the worker.
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # removes the socket on its way
-        while self._serving:
+        while True:
             for key, _ in self._selector.select():
                 key.data()
 
-    def _stop(self) -> None:
-        self._serving = False
-        for job in self._jobs:
-            os.kill(job.process, signal.SIGKILL)
-
     def _start(self) -> None:
-        client, _ = self._listener.accept()
-        client.settimeout(_REQUEST_TIMEOUT_S)
-        streams: list[int] = []
+        """Fork for a client and tell it so; one that hears nothing runs its job itself."""
         try:
-            _, streams, *_ = socket.recv_fds(client, 1, _STANDARD_STREAMS)
-            with client.makefile("rb") as request:
-                order = json.loads(request.readline())
-            _load_imports(order["command"][0])
-            process = _forked(order, streams)
-        except (OSError, ValueError):  # the client is gone, or there is no memory for a process
+            client, _ = self._listener.accept()
+        except OSError:  # no descriptor is free: this client does without, and all to come
+            traceback.print_exc()
+            self._selector.unregister(self._listener)
+            self._listener.close()
+            return
+        try:
+            job = _started(client)
+        except Exception:  # the client is gone, or memory or descriptors are short
+            traceback.print_exc()
             client.close()
             return
-        finally:
-            for stream in streams:
-                os.close(stream)
-        job = _Job(process, os.pidfd_open(process), client)
         self._jobs.add(job)
         self._selector.register(job.ended, selectors.EVENT_READ, partial(self._finish, job))
         # A client has no more to say: this is its end, and takes its job with it.
         self._selector.register(client, selectors.EVENT_READ, partial(self._cancel, job))
+        with suppress(OSError):
+            client.sendall(b"started\n")
 
     def _cancel(self, job: _Job) -> None:
         if job in self._jobs:
@@ -146,15 +135,26 @@ class _Worker:
         job.client.close()
 
 
-def _load_imports(script: str) -> None:
-    """Import what a script imports, so that the next job of its kind finds it loaded."""
-    with suppress(Exception):  # the job will meet it too, and say so in its log
-        for node in ast.parse(Path(script).read_bytes()).body:
-            if isinstance(node, ast.ImportFrom):
-                import_module(node.module)
-            elif isinstance(node, ast.Import):
-                for name in node.names:
-                    import_module(name.name)
+def _started(client: socket.socket) -> _Job:
+    client.settimeout(10)  # s
+    _, streams, *_ = socket.recv_fds(client, 1, _STANDARD_STREAMS)
+    try:
+        if len(streams) < _STANDARD_STREAMS:
+            raise OSError("no descriptors are left for the streams of a job")
+        with client.makefile("rb") as request:
+            order = json.loads(request.readline())
+        with suppress(Exception):  # the job will meet it too, and say so in its log
+            resolve_name(f"foilstudy.{order['command'][1]}")  # for the next of its kind as well
+        process = _forked(order, streams)
+    finally:
+        for stream in streams:
+            os.close(stream)
+    try:
+        return _Job(process, os.pidfd_open(process), client)
+    except OSError:
+        os.kill(process, signal.SIGKILL)
+        os.waitpid(process, 0)
+        raise
 
 
 def _forked(order: dict, streams: list[int]) -> int:
@@ -165,7 +165,7 @@ def _forked(order: dict, streams: list[int]) -> int:
     if process == 0:
         status = 1
         try:
-            ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+            ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG: when the worker ends
             if os.getppid() == worker:
                 status = _carried_out(order, streams)
         finally:
@@ -185,16 +185,15 @@ def _carried_out(order: dict, streams: list[int]) -> int:
         os.environ.clear()
         os.environ.update(order["environment"])
         sys.argv = order["command"]
-        runpy.run_path(sys.argv[0], run_name="__main__")
-        sys.stdout.flush()
+        try:
+            runpy.run_path(sys.argv[0], run_name="__main__")
+        finally:
+            sys.stdout.flush()
+        return 0
     except SystemExit as stop:
-        sys.stdout.flush()
         if isinstance(stop.code, int | None):
             return stop.code or 0
         print(stop.code, file=sys.stderr)
-        return 1
     except BaseException:
-        sys.stdout.flush()
         traceback.print_exc()
-        return 1
-    return 0
+    return 1

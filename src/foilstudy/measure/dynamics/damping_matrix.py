@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from foilstudy.base.errors import Refusal
 from foilstudy.measure.dynamics.damping import Damping
 from foilstudy.measure.dynamics.reduction import ReducedModel
 
@@ -26,7 +27,7 @@ def damping_matrix(model: ReducedModel, damping: Damping) -> np.ndarray:
 
     Raises
     ------
-    ValueError
+    Refusal
         If the damping is not viscous, as structural damping is not: no real matrix C does the same
         at all frequencies.
     """
@@ -41,12 +42,12 @@ def viscous_coefficients(eigenvalues: np.ndarray, damping: Damping) -> np.ndarra
 
     Raises
     ------
-    ValueError
+    Refusal
         If the damping is not viscous.
     """
     once, twice = (damping.modal(eigenvalues, np.array(omega)) for omega in (1.0, 2.0))
     if not np.array_equal(twice, 2 * once):
-        raise ValueError(
+        raise Refusal(
             f"{damping} is not viscous, so that no damping matrix C stands for it; use modal or "
             "Rayleigh damping, or a format that holds the frequency response (csv, uff)."
         )

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from foilstudy.present.report.numerals import number, plural
+from foilstudy.base.numerals import number, plural
 from foilstudy.present.report.spread import Spread
 
 

@@ -2,8 +2,8 @@
 
 from collections.abc import Mapping, Sequence
 
+from foilstudy.base.numerals import fixed
 from foilstudy.present.report.laws import DirectionLaws, Law
-from foilstudy.present.report.numerals import fixed
 
 _STEPS = (
     ("simulation", "simulation mesh limit", "refining the same shapes to the mesh limit"),

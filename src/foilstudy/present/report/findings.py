@@ -6,11 +6,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from foilstudy.base.outcome import STATUSES
-from foilstudy.base.reference import Published
-from foilstudy.present.report.health import Health
-from foilstudy.present.report.laws import SIGNIFICANT, Exponent
-from foilstudy.present.report.numerals import (
+from foilstudy.base.numerals import (
     fixed,
     nominal,
     number,
@@ -21,6 +17,10 @@ from foilstudy.present.report.numerals import (
     signed,
     stiffness,
 )
+from foilstudy.base.outcome import STATUSES
+from foilstudy.base.reference import Published
+from foilstudy.present.report.health import Health
+from foilstudy.present.report.laws import SIGNIFICANT, Exponent
 from foilstudy.present.report.spread import Spread
 from foilstudy.present.statistics import fit_variability, plain_scatter
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pandas as pd
 
+from foilstudy.base.numerals import fixed, nominal, number, percent, plural, stiffness
 from foilstudy.config import Isolation
 from foilstudy.measure.isolation import decibels
-from foilstudy.present.report.numerals import fixed, nominal, number, percent, plural, stiffness
 from foilstudy.present.statistics.mounts import static_spring
 
 _MOUNT_WORDS = {"ideal": "the ideal mount", "resonant": "the mount with its own resonance"}

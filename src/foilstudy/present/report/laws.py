@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pandas as pd
 
+from foilstudy.base.numerals import fixed, number, signed
 from foilstudy.base.reference import PowerLaw
-from foilstudy.present.report.numerals import fixed, number, signed
 from foilstudy.present.statistics.powerlaw import NORMAL_95
 
 SOURCES = {

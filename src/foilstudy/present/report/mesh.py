@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from foilstudy.present.report.numerals import nominal, percent, percent_range, times
+from foilstudy.base.numerals import nominal, percent, percent_range, times
 from foilstudy.present.report.spread import Spread, by_direction, by_thickness
 from foilstudy.present.statistics.cells import relative_mesh_error
 

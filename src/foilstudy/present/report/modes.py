@@ -5,7 +5,7 @@ import math
 import numpy as np
 import xarray as xr
 
-from foilstudy.present.report.numerals import nominal, number, number_range, percent_range, plural
+from foilstudy.base.numerals import nominal, number, number_range, percent_range, plural
 from foilstudy.present.report.spread import Spread
 from foilstudy.present.statistics.cells import measured
 from foilstudy.present.statistics.modal_density import (

@@ -11,6 +11,7 @@ import jinja2
 import pandas as pd
 import xarray as xr
 
+from foilstudy.base import numerals
 from foilstudy.base.files import written_whole
 from foilstudy.base.reference import published
 from foilstudy.plot.save import inches_wide
@@ -25,7 +26,6 @@ from foilstudy.present.report import (
     laws,
     mesh,
     modes,
-    numerals,
     prestress,
     viewer,
 )
@@ -93,7 +93,7 @@ def write_report(files: StudyFiles, out_path: Path) -> Path:
     ------
     FileNotFoundError
         If a table is missing.
-    ValueError
+    Refusal
         If the cube is missing or is none.
     """
     out_path = Path(out_path)

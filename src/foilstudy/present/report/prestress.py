@@ -8,9 +8,9 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from foilstudy.base.numerals import fixed, nominal, number, number_range, percent, plural
 from foilstudy.base.reference import published
 from foilstudy.present.report.laws import DirectionLaws
-from foilstudy.present.report.numerals import fixed, nominal, number, number_range, percent, plural
 from foilstudy.present.report.spread import Spread, by_direction, by_thickness
 from foilstudy.present.statistics import SIMULATED
 from foilstudy.present.statistics.cells import measured

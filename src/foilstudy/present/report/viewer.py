@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from foilstudy.base.errors import Refusal
 from foilstudy.base.record import read_record
 from foilstudy.base.reference import published
 from foilstudy.plot.crumples import Crumple, catalogue
@@ -62,13 +63,13 @@ def pack_shape(shape: Crumple, modes: Modes | None = None) -> dict:
 
     Raises
     ------
-    ValueError
+    Refusal
         If the shape holds values that are not finite.
     """
     values, _ = read_record(shape.path)
     surface, reference = values["surface"], values["reference_surface"]
     if not (np.isfinite(surface).all() and np.isfinite(reference).all()):
-        raise ValueError(
+        raise Refusal(
             f"{shape.path}: the surface holds values that are not finite; "
             "delete the file and crumple this realisation again."
         )

@@ -14,14 +14,13 @@ Time is a sum of power laws, each with its reason:
 Memory is proportional to the elements of the finest mesh that is factorised, or to elements times
 coordinates of the reduction, if that is more.
 
-`MEASURED` holds the coefficients, which `benchmarks/expected.py` fits to finished studies. They are
-those of the default element and the default reduction: of thin foil the one-point element takes
-fewer steps.
+`benchmarks/expected.py` fits the coefficients of `CostModel` to finished studies. They are those of
+the default element and the default reduction: of thin foil the one-point element takes fewer steps.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -45,48 +44,29 @@ RING_MOTIONS = 12
 
 @dataclass(frozen=True)
 class CostModel:
-    """Coefficients of the laws; elements are counted in thousands, R/t in thousands, too.
+    """Coefficients of the laws; elements and R/t are counted in thousands.
 
-    Attributes
-    ----------
-    step, step_exponent : float
-        Seconds of one step, and how they grow with the elements.
-    settling, condensation, solve_exponent : float
-        Seconds of settling and of one static stiffness, and how both grow with the elements.
-    projection : float
-        Seconds of a reduction for a thousand elements times the square of a hundred coordinates.
-    relaxation_steps, slenderness_exponent : float
-        Steps after the ramp, and how they grow with R/t.
-    coordinates, coordinates_exponent : float
-        Reduced coordinates for each kHz of the band beyond the motions of the rings, and how they
-        grow with R/t.
-    memory_base_mb, memory_mb, projection_memory_mb : float
-        Memory of the libraries, that for a thousand elements of the finest mesh, and that for a
-        thousand elements times a thousand coordinates.
-    job : float
-        Seconds of a job beyond its physics.
-    gathering : float
-        Processor seconds of the jobs that wait for all realisations, and of the cylinder.
-    start : float
-        Seconds until the first job starts, and of Snakemake in all.
+    Their values are fitted to the default study (Intel Xeon, two processors), the published study
+    (AMD EPYC, two busy processors) and results/convergence: in all, the studies took 1.01 and 1.17
+    times the expected time.
     """
 
-    step: float
-    step_exponent: float
-    settling: float
-    condensation: float
-    solve_exponent: float
-    projection: float
-    relaxation_steps: float
-    slenderness_exponent: float
-    coordinates: float
-    coordinates_exponent: float
-    memory_base_mb: float
-    memory_mb: float
-    projection_memory_mb: float
-    job: float
-    gathering: float
-    start: float
+    step: float = 0.000115  # seconds of one step
+    step_exponent: float = 1.04
+    settling: float = 0.0833  # seconds
+    condensation: float = 0.033  # seconds of one static stiffness
+    solve_exponent: float = 1.35  # of settling and static stiffness
+    projection: float = 0.0322  # seconds of a reduction to a hundred coordinates, growing squared
+    relaxation_steps: float = 7700  # after the ramp
+    slenderness_exponent: float = 0.63  # of these steps with R/t
+    coordinates: float = 689  # for each kHz of the band, beyond the motions of the rings
+    coordinates_exponent: float = 0.399  # with R/t
+    memory_base_mb: float = 188  # of the libraries
+    memory_mb: float = 26  # for a thousand elements of the finest mesh
+    projection_memory_mb: float = 186  # for a thousand elements times a thousand coordinates
+    job: float = 0.122  # seconds of a job beyond its physics
+    gathering: float = 30.2  # seconds of cylinder and all jobs that wait for the realisations
+    start: float = 3.47  # seconds until the first job starts, and of Snakemake in all
 
     def steps_after_ramp(self, slenderness: float) -> float:
         """Steps that a foil of R/t relaxes."""
@@ -103,11 +83,7 @@ class CostModel:
 
     def static_seconds(self, meshes: Sequence[int]) -> float:
         """Time of the static stiffness on a ladder of meshes, elements each, coarsest first."""
-        times = (2, 2, *(1,) * len(meshes))
-        return sum(
-            count * self.solve_seconds(elements)
-            for count, elements in zip(times, meshes, strict=False)
-        )
+        return sum(map(self.solve_seconds, (*meshes, *meshes[:2])))  # the first ones twice
 
     def reduced_coordinates(self, slenderness: float, band_hz: float) -> float:
         """Coordinates of the reduced model of a foil of R/t, up to the end of the band."""
@@ -126,33 +102,14 @@ class CostModel:
         return self.memory_base_mb + np.maximum(factorised, reduced)
 
 
-MEASURED = CostModel(
-    step=1.18e-4,
-    step_exponent=1.04,
-    settling=0.0861,
-    condensation=0.0358,
-    solve_exponent=1.34,
-    projection=0.0313,
-    relaxation_steps=7700,
-    slenderness_exponent=0.63,
-    coordinates=689,
-    coordinates_exponent=0.399,
-    memory_base_mb=245,
-    memory_mb=25.3,
-    projection_memory_mb=156,
-    job=1.01,
-    gathering=39.5,
-    start=5.0,
-)
-"""Fitted to the default study (Intel Xeon, two processors), the published study (AMD EPYC, two busy
-processors) and results/convergence: in all they took 1.05 and 1.14 times the expected time."""
+MEASURED = CostModel()
 
-SPREAD = 1.6
-"""Factor within which nine of ten realisations of a study were, by a model fitted without it: 1.23
-of the default study and 1.58 of the published one, on processors of different speed."""
+SPREAD = 1.8
+"""Factor within which nine of ten realisations of a study were, by a model fitted without it: 1.25
+of the default study and 1.76 of the published one, on processors of different speed."""
 
 MEMORY_SPREAD = 1.4
-"""The same of the largest job: 1.36 and 0.89 of the expected memory."""
+"""The same of the largest job: 1.39 and 0.97 of the expected memory."""
 
 
 @dataclass(frozen=True)
@@ -161,37 +118,29 @@ class ExpectedConfiguration:
 
     Attributes
     ----------
-    thickness_um, reference_height_mm, element_size_mm : float
-        As configured; the size is a number where `auto` was given.
-    slenderness : float
-        Radius over thickness.
+    thickness_um, reference_height_mm : float
+        As configured.
     elements : tuple of int
         Of the mesh that is crumpled, and of each refinement of its shape.
     steps : int
         Ramp and relaxation.
-    crumple_seconds, response_seconds, refine_seconds, export_seconds : float
-        Processor time of the physics of a job; zero where the study has no such jobs.
+    seconds_of : mapping of str to float
+        Processor time of the physics of its jobs, by their kind.
     peak_memory_mb : float
         Of the largest of its jobs.
     """
 
     thickness_um: float
     reference_height_mm: float
-    element_size_mm: float
-    slenderness: float
     elements: tuple[int, ...]
     steps: int
-    crumple_seconds: float
-    response_seconds: float
-    refine_seconds: float
-    export_seconds: float
+    seconds_of: Mapping[str, float]
     peak_memory_mb: float
 
     @property
     def seconds(self) -> float:
         """Processor time of the physics of one realisation."""
-        measured = self.crumple_seconds + self.response_seconds
-        return measured + self.refine_seconds + self.export_seconds
+        return sum(self.seconds_of.values())
 
 
 @dataclass(frozen=True)
@@ -202,38 +151,20 @@ class Expected:
     ----------
     configurations : tuple of ExpectedConfiguration
         Every thickness with every height.
-    seeds : int
-        Realisations of each.
-    jobs_each : int
-        Jobs of one realisation.
-    model : CostModel
+    realisations, jobs : int
+        In all.
+    realisation_seconds, processor_seconds : float
+        Of the jobs of all realisations, what is beyond their physics included, and of the study.
+    start_seconds : float
+        In which no job runs.
     """
 
     configurations: tuple[ExpectedConfiguration, ...]
-    seeds: int
-    jobs_each: int
-    model: CostModel = MEASURED
-
-    @property
-    def realisations(self) -> int:
-        """Number of realisations."""
-        return self.seeds * len(self.configurations)
-
-    @property
-    def jobs(self) -> int:
-        """Number of jobs of the realisations."""
-        return self.jobs_each * self.realisations
-
-    @property
-    def realisation_seconds(self) -> float:
-        """Processor time of the jobs of all realisations, what is beyond their physics included."""
-        physics = self.seeds * sum(each.seconds for each in self.configurations)
-        return physics + self.jobs * self.model.job
-
-    @property
-    def processor_seconds(self) -> float:
-        """Processor time of the whole study."""
-        return self.realisation_seconds + self.model.gathering
+    realisations: int
+    jobs: int
+    realisation_seconds: float
+    processor_seconds: float
+    start_seconds: float
 
     @property
     def peak_memory_mb(self) -> float:
@@ -242,8 +173,7 @@ class Expected:
 
     def wall_seconds(self, cores: int) -> float:
         """Time until the report is there, on so many free cores."""
-        busy = min(cores, self.realisations)
-        return self.model.start + self.processor_seconds / busy
+        return self.start_seconds + self.processor_seconds / min(cores, self.realisations)
 
     def total_memory_mb(self, cores: int) -> float:
         """Memory of the largest jobs at once."""
@@ -255,8 +185,12 @@ def expected(study: StudyConfig, model: CostModel = MEASURED) -> Expected:
     configurations = tuple(
         _configuration(study, cell, model) for cell in study.cells() if cell.seed == study.seeds[0]
     )
-    jobs = 2 + (study.stiffness.relaxed_refinements > 0) + bool(study.export.formats)
-    return Expected(configurations, len(study.seeds), jobs, model)
+    realisations = len(study.cells())
+    jobs = len(configurations[0].seconds_of) * realisations
+    physics = len(study.seeds) * sum(each.seconds for each in configurations)
+    seconds = physics + jobs * model.job
+    total = seconds + model.gathering
+    return Expected(configurations, realisations, jobs, seconds, total, model.start)
 
 
 def _configuration(study: StudyConfig, cell: Cell, model: CostModel) -> ExpectedConfiguration:
@@ -270,17 +204,15 @@ def _configuration(study: StudyConfig, cell: Cell, model: CostModel) -> Expected
     steps = study.relaxation.ramp_steps + round(relaxing)
     coordinates = model.reduced_coordinates(slenderness, study.dynamics.shown_max_hz)
     dynamic = model.dynamic_seconds(elements, coordinates)
-    exported = model.solve_seconds(elements) + dynamic if study.export.formats else 0.0
+    seconds = {
+        "crumple": model.crumple_seconds(elements, steps),
+        "response": model.static_seconds(meshes) + dynamic,
+    }
+    if relaxed:
+        seconds["refine"] = sum(model.crumple_seconds(mesh, relaxing) for mesh in relaxed)
+    if study.export.formats:
+        seconds["export"] = model.solve_seconds(elements) + dynamic
+    memory = float(model.peak_memory_mb(max([*meshes, *relaxed]), elements, coordinates))
     return ExpectedConfiguration(
-        thickness_um=cell.thickness_um,
-        reference_height_mm=cell.reference_height_mm,
-        element_size_mm=task.mesh.element_size_mm,
-        slenderness=slenderness,
-        elements=meshes,
-        steps=steps,
-        crumple_seconds=model.crumple_seconds(elements, steps),
-        response_seconds=model.static_seconds(meshes) + dynamic,
-        refine_seconds=sum(model.crumple_seconds(mesh, relaxing) for mesh in relaxed),
-        export_seconds=exported,
-        peak_memory_mb=float(model.peak_memory_mb(max([*meshes, *relaxed]), elements, coordinates)),
+        cell.thickness_um, cell.reference_height_mm, meshes, steps, seconds, memory
     )

@@ -3,63 +3,26 @@
 from __future__ import annotations
 
 import traceback
-from collections.abc import Iterable
 from pathlib import Path
 
+from foilstudy.base.errors import Refusal
 from foilstudy.base.files import written_whole
 from foilstudy.base.provenance import provenance
 from foilstudy.base.record import MACHINE_FAULTS, read_record
-from foilstudy.config import ResponseTask, StudyConfig, load_config
+from foilstudy.config import ResponseTask
 from foilstudy.config.scene import dynamics_of
 from foilstudy.export.contents import Contents
-from foilstudy.export.formats import FORMATS, check_format
+from foilstudy.export.formats import FORMATS
 from foilstudy.export.write import write
 from foilstudy.pipeline.crumpled import Crumpled
 
 README = "README.txt"
-_REALISATIONS = 3
-"""Folders from a realisation up to the folder of all: seed, overlength, thickness."""
 
 
-def recorded_task(folder: Path, config: Path | None = None) -> ResponseTask:
-    """Foil, damping and band of a realisation; its records hold shape and status only.
-
-    Parameters
-    ----------
-    folder : Path
-        ``results/NAME/realisations/THICKNESS/HEIGHT/SEED``.
-    config : Path, optional
-        YAML file of the study; without it, what stands in ``results/NAME/cube.nc``.
-
-    Raises
-    ------
-    ValueError
-        If the folder is none of a realisation, or if the configuration is not known.
-    """
-    place = folder.resolve()
-    if len(place.parents) <= _REALISATIONS:
-        raise ValueError(
-            f"{folder}: is not the folder of a realisation, such as "
-            "results/NAME/realisations/t500um/h170mm/0."
-        )
-    study = _study(config, place.parents[_REALISATIONS])
-    return study.response_task(study.cell(*place.parts[-_REALISATIONS:]))
-
-
-def _study(config: Path | None, results: Path) -> StudyConfig:
-    if config is not None:
-        return load_config(config)
-    cube = results / "cube.nc"
-    if not cube.is_file():
-        raise ValueError(
-            f"{cube}: there is no such file, so that the configuration is not known; finish the "
-            "study, or give it with --config."
-        )
-    import netCDF4
-    import yaml
-
-    with netCDF4.Dataset(cube) as file:
-        return load_config(yaml.safe_load(file.config))
+def recorded_task(folder: Path) -> ResponseTask:
+    """Foil, damping, reduction and band of a finished realisation, from its ``response.nc``."""
+    _, attributes = read_record(folder / "response.nc")
+    return ResponseTask.model_validate_json(attributes["task"])
 
 
 def contents_of(task: ResponseTask, crumple_path: Path, refinements: int = 0) -> Contents:
@@ -76,21 +39,17 @@ def contents_of(task: ResponseTask, crumple_path: Path, refinements: int = 0) ->
 
     Raises
     ------
-    ValueError
+    Refusal
         If the crumple is no equilibrium, or if the reduced model is valid nowhere in the band.
     SolveError
         If a factorisation or the reduction fails.
     """
-    if not crumple_path.is_file():
-        raise ValueError(
-            f"{crumple_path}: there is no such record; run the study, or check the path."
-        )
     if refinements < 0:
-        raise ValueError(f"refinements is {refinements}; elements can be halved, not joined.")
+        raise Refusal(f"refinements is {refinements}; elements can be halved, not joined.")
     values, attributes = read_record(crumple_path)
     status = attributes.get("status", "missing")
     if status != "converged":
-        raise ValueError(
+        raise Refusal(
             f"{crumple_path}: its status is {status} ({attributes.get('message', 'no message')}); "
             "only an equilibrium is exported, so relax it further or take another seed."
         )
@@ -106,13 +65,11 @@ def contents_of(task: ResponseTask, crumple_path: Path, refinements: int = 0) ->
     }
     try:
         return Contents.of(crumpled, dynamics_of(task.dynamics), origin | provenance())
-    except ValueError as problem:
-        raise ValueError(f"{crumple_path}: {problem}") from None
+    except Refusal as problem:
+        raise Refusal(f"{crumple_path}: {problem}") from None
 
 
-def export_realisation(
-    task: ResponseTask, crumple_path: Path, folder: Path, formats: Iterable[str]
-) -> None:
+def export_realisation(task: ResponseTask, crumple_path: Path, folder: Path, *formats: str) -> None:
     """Write the formats into a folder, and beside them a text that says what each is.
 
     A realisation or a format that cannot be exported leaves its reason in that text, so that a
@@ -120,12 +77,10 @@ def export_realisation(
 
     Raises
     ------
-    ValueError
+    Refusal
         If a format is unknown.
     """
-    formats = list(formats)
-    for name in formats:
-        check_format(name)
+    files = {name: FORMATS.choice(name).filename for name in formats}
     lines = [
         f"Realisation {task.thickness_um:g} um, {task.reference_height_mm:g} mm, seed {task.seed}.",
         "SI units; how to open these files: docs/exchange.md.",
@@ -138,27 +93,27 @@ def export_realisation(
     except Exception as error:  # a study must survive any one realisation
         lines.append(f"Not exported: {_reason(error)}")
     else:
-        lines += [_exported(contents, name, folder) for name in formats]
+        lines += [_exported(contents, name, folder) for name in files]
     with written_whole(folder / README) as partial:
         partial.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    there = sum((folder / FORMATS[name].filename).is_file() for name in formats)
-    print("\n".join(lines), f"{there} of {len(formats)} files written", sep="\n")
+    there = sum((folder / filename).is_file() for filename in files.values())
+    print("\n".join(lines), f"{there} of {len(files)} files written", sep="\n")
 
 
 def _exported(contents: Contents, name: str, folder: Path) -> str:
     """Write one format; the line that says what it is, or why it is not there."""
-    kind = FORMATS[name]
+    kind = FORMATS.choice(name)
     try:
         write(contents, name, folder / kind.filename)
     except MACHINE_FAULTS:
         raise
     except Exception as error:  # the other formats may well be possible
         return f"{kind.filename}: not written: {_reason(error)}"
-    return f"{kind.filename}: {kind.content}"
+    return f"{kind.filename}: {kind.words}"
 
 
 def _reason(error: Exception) -> str:
-    if isinstance(error, ValueError):
+    if isinstance(error, Refusal):
         return str(error)
     traceback.print_exc()
     return f"{type(error).__name__}: {error}"

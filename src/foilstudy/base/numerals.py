@@ -71,19 +71,18 @@ def stiffness(value: float) -> str:
     return f"{number(value)} N/m"
 
 
-def duration(seconds: float) -> str:
+def duration(seconds: float, digits: int = 3) -> str:
     """Write a time span given in seconds in hours, minutes or seconds."""
     if not math.isfinite(seconds):
         return NOTHING
-    if seconds < 90:
-        return f"{number(seconds)} s"
-    minutes = seconds / 60
-    return f"{number(minutes)} min" if minutes < 90 else f"{number(minutes / 60)} h"
+    small = (1, "s") if seconds < 90 else (60, "min")
+    factor, unit = small if seconds < 90 * 60 else (3600, "h")
+    return f"{number(seconds / factor, digits)} {unit}"
 
 
 def times(count: int) -> str:
     """Write a small count of repetitions as an adverb."""
-    return {1: "once", 2: "twice"}.get(count, f"{count} times")
+    return {0: "not at all", 1: "once", 2: "twice"}.get(count, f"{count} times")
 
 
 def plural(count: int, noun: str) -> str:
