@@ -91,6 +91,20 @@ class Record:
     cost: Cost
 
 
+Records = Mapping[str, Mapping[Case, Record]]
+"""By part and case, in the order of the plan."""
+Results = dict[str, dict[Case, Any]]
+"""What was measured, by part and case."""
+
+
+def results(records: Records) -> Results:
+    """Findings of a study whose tables and figures need no costs."""
+    return {
+        part: {case: record.result for case, record in cases.items()}
+        for part, cases in records.items()
+    }
+
+
 @dataclass(frozen=True)
 class Part:
     """Cases of a study that are measured alike, a job and a record each.

@@ -23,7 +23,7 @@ from foilstudy.model.supports.edges import (
     constraints,
     diaphragm,
 )
-from foilstudy.study.foils import FEP
+from foilstudy.study.published import FEP
 from foilstudy.study.verification import theory_cylinder, theory_plate
 from foilstudy.study.verification.candidates import Candidate
 from foilstudy.study.verification.linear import (

@@ -31,7 +31,7 @@ from foilstudy.model.supports.interpolation import as_vector
 from foilstudy.model.supports.loads import edge_load
 from foilstudy.solve.loading.buckling import buckling_modes
 from foilstudy.solve.loading.loaded_sheet import LoadedSheet
-from foilstudy.study.foils import FEP
+from foilstudy.study.published import FEP
 from foilstudy.study.verification.candidates import Candidate
 from foilstudy.study.verification.frequencies import LENGTH, RADIUS
 from foilstudy.study.verification.records import Benchmark, Picture, Quantity
