@@ -110,7 +110,7 @@ def _convergence(ax, benchmark: Benchmark) -> None:
             textcoords="offset points", color=GREY, fontsize=8.5,
         )  # fmt: skip
     ticks = sorted({mesh for quantity in benchmark.quantities for mesh in quantity.meshes})
-    ax.set_xticks(ticks, [str(tick) for tick in ticks])
+    ax.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
     ax.xaxis.set_minor_formatter(NullFormatter())
     ax.tick_params(axis="x", which="minor", length=0)
     sides = dict.fromkeys(quantity.side for quantity in benchmark.quantities)
@@ -128,7 +128,7 @@ def _share_errors(axes) -> None:
 def _curves(ax, plot: Plot, element: str) -> None:
     for i, (curve, colour) in enumerate(zip(plot.curves, ordered_colours(len(plot.curves)))):
         ax.plot(curve.x, curve.y, color=colour, label=curve.label)
-        if curve.published_x:
+        if len(curve.published_x):
             ax.plot(
                 curve.published_x, curve.published_y, marker(i), color=colour, mfc="white", ms=6,
                 label=f"{curve.label}, published",

@@ -1,7 +1,7 @@
 """What a benchmark returns: values on a sequence of meshes, held against a known one.
 
 A `Benchmark` is what one job of ``snakemake verify`` computes: one problem with one element. It has
-one `Quantity` for every number that theory or a publication gives, and what is drawn of it:
+one `Checked` for every number that theory or a publication gives, and what is drawn of it:
 `Curve` and `Picture`.
 """
 
@@ -23,7 +23,7 @@ _PICTURE_LINES = 120
 
 
 @dataclass(frozen=True)
-class Quantity:
+class Checked:
     """One number on a sequence of meshes beside its known value.
 
     Attributes
@@ -221,7 +221,7 @@ class Benchmark:
         One line for headings.
     element : str
         Element under test.
-    quantities : tuple of Quantity
+    quantities : tuple of Checked
     plot : Plot or None
     pictures : tuple of Picture
     """
@@ -229,7 +229,7 @@ class Benchmark:
     name: str
     title: str
     element: str
-    quantities: tuple[Quantity, ...]
+    quantities: tuple[Checked, ...]
     plot: Plot | None = None
     pictures: tuple[Picture, ...] = ()
 
@@ -237,7 +237,7 @@ class Benchmark:
         """Root mean square of the relative errors of a family on every mesh."""
         return np.sqrt(np.mean([q.errors**2 for q in self._members(family)], axis=0))
 
-    def rate(self, quantity: Quantity) -> float:
+    def rate(self, quantity: Checked) -> float:
         """Order of convergence of a quantity, or of its family."""
         if not quantity.family:
             return quantity.rate
@@ -253,22 +253,5 @@ class Benchmark:
             found += _rate_problems(family, self.rate(first), first.expected_rate)
         return tuple(f"{self.name}, {self.element}: {problem}" for problem in found)
 
-    def _members(self, family: str) -> list[Quantity]:
+    def _members(self, family: str) -> list[Checked]:
         return [q for q in self.quantities if q.family == family]
-
-    @classmethod
-    def of(cls, result: dict) -> Benchmark:
-        """From the result of a record."""
-        quantities = tuple(
-            Quantity(**{**q, "meshes": tuple(map(int, q["meshes"])), "values": tuple(q["values"])})
-            for q in result["quantities"]
-        )
-        plot = result["plot"]
-        if plot is not None:
-            curves = tuple(
-                Curve(**{k: v if k == "label" else tuple(v) for k, v in curve.items()})
-                for curve in plot["curves"]
-            )
-            plot = Plot(plot["x_label"], plot["y_label"], curves)
-        pictures = tuple(Picture(**picture) for picture in result["pictures"])
-        return cls(result["name"], result["title"], result["element"], quantities, plot, pictures)
