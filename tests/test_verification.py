@@ -38,10 +38,6 @@ def test_order_is_found_with_and_without_the_exact_value(power, exact):
     assert found == pytest.approx(power, rel=1e-6)
 
 
-def test_limit_is_extrapolated_with_the_order_of_theory():
-    assert quantity(converging(2.0)).limit == pytest.approx(3.0, rel=1e-12)
-
-
 def test_values_that_converge_as_they_should_raise_no_problem():
     assert quantity(converging(2.0)).problems() == ()
 

@@ -7,9 +7,9 @@ from itertools import combinations
 import numpy as np
 
 from foilstudy.measure.dynamics.mac import mac
-from foilstudy.plot.crumples import Crumple, catalogue
+from foilstudy.plot.crumples import RecordedCrumple, catalogue
 from foilstudy.plot.mac import ModeLabels, draw_mac
-from foilstudy.plot.modes import Modes, recorded_modes
+from foilstudy.plot.modes import RecordedModes, recorded_modes
 from foilstudy.plot.style import (
     message_panel,
     new_figure,
@@ -50,9 +50,9 @@ def draw(crumple_paths, response_paths):
     return figure
 
 
-def _thin_and_thick(crumples: list[Crumple]) -> list[list[Crumple]]:
+def _thin_and_thick(crumples: list[RecordedCrumple]) -> list[list[RecordedCrumple]]:
     """Realisations at the middle overlength of the thinnest and the thickest foil."""
-    cells: dict[float, dict[float, list[Crumple]]] = {}
+    cells: dict[float, dict[float, list[RecordedCrumple]]] = {}
     for crumple in crumples:
         cell = cells.setdefault(crumple.thickness_um, {})
         cell.setdefault(crumple.overlength_percent, []).append(crumple)
@@ -64,7 +64,7 @@ def _thin_and_thick(crumples: list[Crumple]) -> list[list[Crumple]]:
     return chosen
 
 
-def _panel(ax, case: list[tuple[Crumple, Modes]]):
+def _panel(ax, case: list[tuple[RecordedCrumple, RecordedModes]]):
     (first, modes_a), (second, modes_b) = case[:2]
     matrix = _compared(modes_a, modes_b)
     image = draw_mac(
@@ -87,7 +87,7 @@ def _panel(ax, case: list[tuple[Crumple, Modes]]):
     return image
 
 
-def best_partners(modes: list[Modes]) -> np.ndarray:
+def best_partners(modes: list[RecordedModes]) -> np.ndarray:
     """Largest MAC of every mode of one realisation with those of another, over all pairs."""
     best = []
     for one, other in combinations(modes, 2):
@@ -96,5 +96,5 @@ def best_partners(modes: list[Modes]) -> np.ndarray:
     return np.concatenate(best)
 
 
-def _compared(one: Modes, other: Modes) -> np.ndarray:
+def _compared(one: RecordedModes, other: RecordedModes) -> np.ndarray:
     return mac(*(modes.shapes.reshape(len(modes.shapes), -1).T for modes in (one, other)))

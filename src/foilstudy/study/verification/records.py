@@ -106,16 +106,6 @@ class Checked:
             return np.nan
         return float(brentq(mismatch, low, high))
 
-    @property
-    def limit(self) -> float:
-        """Value extrapolated to element size zero from the last two meshes.
-
-        With the order of theory, or the fitted one where theory promises none.
-        """
-        order = self.rate if self.expected_rate is None else self.expected_rate
-        ratio = (self.meshes[-1] / self.meshes[-2]) ** order
-        return self.values[-1] + (self.values[-1] - self.values[-2]) / (ratio - 1)
-
     def problems(self) -> tuple[str, ...]:
         """One sentence for each demand that is not met; those on the family are not asked here."""
         found = []
