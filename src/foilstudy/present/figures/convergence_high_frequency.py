@@ -7,12 +7,12 @@ import numpy as np
 from foilstudy.plot.style import (
     BAND_ALPHA,
     GREY,
-    PAGE_WIDTH,
+    legend_below,
     line_style,
     message_panel,
-    new_figure,
     ordered_colours,
     overlength_label,
+    panel_grid,
     styled,
     thickness_label,
     value_ticks,
@@ -39,9 +39,9 @@ def draw(cube):
     """
     directions = list(map(str, cube["direction"].values))
     thicknesses = cube["thickness"].to_numpy()
-    rows = len(directions) + 1
-    figure = new_figure(min(PAGE_WIDTH, 2.2 * thicknesses.size + 2.2), 2.2 * rows + 0.7)
-    axes = figure.subplots(rows, thicknesses.size, sharex=True, sharey="row", squeeze=False)
+    figure, axes = panel_grid(
+        len(directions) + 1, thicknesses.size, (2.2, 2.2), (2.2, 0.7), sharex=True, sharey="row"
+    )
     frequency = cube["frequency"].to_numpy()
     limit = resolved_up_to(cube)
     for column, thickness in zip(axes.T, thicknesses):
@@ -103,16 +103,13 @@ def _criterion(ax, found: dict[str, OverlengthSpread], directions) -> None:
 
 def _label(figure, axes, directions) -> None:
     for ax in axes.flat:
-        if not ax.axison:
-            continue
-        low, high = ax.get_xlim()
-        value_ticks(ax.xaxis, [f for f in (1, 10, 100, 800) if low <= f <= high])
+        if ax.axison:
+            value_ticks(ax.xaxis, (1, 10, 100, 800))
     for row, direction in zip(axes, directions):
         row[0].set_ylabel(f"{direction} |k| over\nmean of overlengths")
         shown = next((ax for ax in row if ax.axison), None)
         if shown is not None:
-            low, high = shown.get_ylim()
-            value_ticks(shown.yaxis, [v for v in (0.1, 0.2, 0.5, 1, 2, 5, 10) if low <= v <= high])
+            value_ticks(shown.yaxis, (0.1, 0.2, 0.5, 1, 2, 5, 10))
     axes[-1, 0].set_ylabel("spread of overlengths\nover that of seeds")
     for ax in axes[-1]:
         ax.set_xlabel("frequency (Hz)")
@@ -120,14 +117,4 @@ def _label(figure, axes, directions) -> None:
     if criteria:
         criteria[0].set_ylim(bottom=0)
         criteria[0].legend(loc="upper right", handlelength=2.5)
-    handles, labels = max(
-        (ax.get_legend_handles_labels() for ax in axes[:-1].flat), key=lambda pair: len(pair[0])
-    )
-    if handles:
-        figure.legend(
-            handles,
-            labels,
-            title="overlength",
-            loc="outside lower center",
-            ncols=min(8, len(labels)),
-        )
+    legend_below(figure, axes[:-1], title="overlength")

@@ -43,8 +43,7 @@ def draw(cube):
     figure = new_figure(PAGE_WIDTH, len(directions) * (0.9 + 0.48 * rows) + 0.9)
     axes = figure.subplots(len(directions), len(MOUNTS), sharex=True, sharey=True, squeeze=False)
     if not table["n"].any():
-        for ax in axes.flat:
-            message_panel(ax, "no usable realisation in this study")
+        message_panel(axes, "no usable realisation in this study")
         return figure
     norm = _norm(table)
     for row, direction in zip(axes, directions):

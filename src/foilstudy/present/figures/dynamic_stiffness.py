@@ -6,14 +6,14 @@ import numpy as np
 
 from foilstudy.base.outcome import USABLE
 from foilstudy.plot.style import (
-    BAND_ALPHA,
-    PAGE_WIDTH,
     decade_ticks,
+    legend_below,
     line_style,
+    median_band,
     message_panel,
-    new_figure,
     ordered_colours,
     overlength_label,
+    panel_grid,
     styled,
     thickness_label,
     value_ticks,
@@ -35,9 +35,8 @@ def draw(cube, definition: str):
     magnitude = magnitude.where(cube["status"].isin(USABLE))
     directions = list(map(str, cube["direction"].values))
     thicknesses = cube["thickness"].to_numpy()
-    figure = new_figure(min(PAGE_WIDTH, 2.2 * thicknesses.size + 2.2), 2.9 * len(directions) + 0.6)
-    axes = figure.subplots(
-        len(directions), thicknesses.size, sharex=True, sharey=True, squeeze=False
+    figure, axes = panel_grid(
+        len(directions), thicknesses.size, (2.2, 2.9), (2.2, 0.6), sharex=True, sharey=True
     )
     for row, direction in zip(axes, directions):
         static = good(cube, "static_stiffness", direction=direction).mean("seed")
@@ -45,26 +44,14 @@ def draw(cube, definition: str):
             at = {"thickness": thickness}
             _panel(ax, magnitude.sel(at | {"direction": direction}), static.sel(at))
         row[0].set_ylabel(f"{direction} |k| (N/m)")
-    frequency = cube["frequency"].to_numpy()
     for ax, thickness in zip(axes[0], thicknesses):
         ax.set_title(thickness_label(thickness))
     for ax in axes[-1]:
         ax.set_xlabel("frequency (Hz)")
-        ticks = [f for f in (1, 10, 100, 800) if frequency[0] <= f <= frequency[-1]]
-        value_ticks(ax.xaxis, ticks)
+        value_ticks(ax.xaxis, (1, 10, 100, 800))
     if axes[0, 0].get_yscale() == "log":
         decade_ticks(axes[0, 0].yaxis)
-    handles, labels = max(
-        (ax.get_legend_handles_labels() for ax in axes.flat), key=lambda pair: len(pair[0])
-    )
-    if handles:
-        figure.legend(
-            handles,
-            labels,
-            title="overlength",
-            loc="outside lower center",
-            ncols=min(8, len(labels)),
-        )
+    legend_below(figure, axes, title="overlength")
     return figure
 
 
@@ -75,39 +62,16 @@ def _panel(ax, magnitude, static) -> None:
     drawn = False
     for j, colour in enumerate(ordered_colours(overlengths.size)):
         curves = magnitude.isel(overlength=j).transpose("seed", "frequency").to_numpy()
-        curves = curves[np.isfinite(curves).any(axis=1)]
-        # a reduced model that is not valid up to the end of the band leaves the rest out
-        known = np.isfinite(curves).any(axis=0)
-        if not known.any():
+        if not np.isfinite(curves).any():
             continue
         drawn = True
-        curves = curves[:, known]
-        ax.fill_between(
-            frequency[known],
-            np.nanmin(curves, axis=0),
-            np.nanmax(curves, axis=0),
-            color=colour,
-            alpha=BAND_ALPHA,
-            lw=0,
-        )
+        # a reduced model that is not valid up to the end of the band leaves the rest out
+        look = {"lw": 1.4, "ls": line_style(j), "label": overlength_label(overlengths[j])}
+        median_band(ax, frequency, curves, colour, **look)
         ax.plot(
-            frequency[known],
-            np.nanmedian(curves, axis=0),
-            color=colour,
-            lw=1.4,
-            ls=line_style(j),
-            label=overlength_label(overlengths[j]),
-        )
-        ax.plot(
-            left * 1.17,
-            static.isel(overlength=j),
-            ">",
-            color=colour,
-            ms=5.5,
-            mec="white",
-            mew=0.4,
+            left * 1.17, static.isel(overlength=j), ">", color=colour, ms=5.5, mec="white", mew=0.4,
             clip_on=False,
-        )
+        )  # fmt: skip
     if not drawn:
         message_panel(ax, "no usable realisation")
         return

@@ -10,7 +10,7 @@ from foilstudy.plot.style import (
     decade_ticks,
     label_ends,
     marker,
-    message_panel,
+    message_figure,
     new_figure,
     ordered_colours,
     span,
@@ -33,11 +33,10 @@ def draw(cube):
     data = samples(cube, "first_eigenfrequency")
     thicknesses = cube["thickness"].to_numpy()
     heights = cube["reference_height"].to_numpy()
+    if not data.value.size:
+        return message_figure()
     figure = new_figure(8.6, 4.8)
     ax = figure.subplots()
-    if not data.value.size:
-        message_panel(ax, "no usable realisation in this study")
-        return figure
     ax.set_xscale("log")
     ax.set_yscale("log")
     ax.set_xlim(span(heights, 1.06))

@@ -6,12 +6,12 @@ import numpy as np
 
 from foilstudy.base.outcome import USABLE
 from foilstudy.plot.style import (
-    PAGE_WIDTH,
+    legend_below,
     message_panel,
-    new_figure,
     overlength_label,
     styled,
     thickness_label,
+    wrapped_grid,
 )
 
 _PARTS = {"bending": ("0.35", ""), "membrane": ("0.65", ""), "stabilisation": ("#d95f02", "///")}
@@ -36,22 +36,13 @@ def draw(cube):
     }
     thicknesses = cube["thickness"].to_numpy()
     overlengths = cube["overlength"].to_numpy()
-    columns = min(4, thicknesses.size)
-    rows = -(-thicknesses.size // columns)
-    figure = new_figure(min(PAGE_WIDTH, 2.2 * columns + 2.2), 3.0 * rows + 0.5)
-    axes = figure.subplots(rows, columns, sharey=True, squeeze=False).ravel()
-    for i, (ax, thickness) in enumerate(zip(axes, thicknesses)):
+    figure, axes = wrapped_grid(thicknesses.size, 4, (2.2, 3.0), (2.2, 0.5), sharey=True)
+    for i, (ax, thickness) in enumerate(zip(axes.flat, thicknesses)):
         ax.set_title(thickness_label(thickness), pad=16)
         _bars(ax, {name: values[i] for name, values in parts.items()}, overlengths)
-    for ax in axes[thicknesses.size :]:
-        ax.set_visible(False)
-    for ax in axes[::columns]:
+    for ax in axes[:, 0]:
         ax.set_ylabel("share of strain energy (%)")
-    handles, labels = max(
-        (ax.get_legend_handles_labels() for ax in axes), key=lambda pair: len(pair[0])
-    )
-    if handles:
-        figure.legend(handles, labels, loc="outside lower center", ncols=3)
+    legend_below(figure, axes)
     return figure
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from foilstudy.plot.style import (
     BAND_ALPHA,
     decade_ticks,
+    legend_below,
     marker,
     message_panel,
     new_figure,
@@ -37,17 +38,14 @@ def draw(cube):
         fit = fit_power_law(data).fit
         column[0].set_title(direction)
         if not np.isfinite(fit.value["constant"]):
-            for ax in column:
-                message_panel(ax, fit.note)
+            message_panel(column, fit.note)
             continue
         _pair(column, data, fit, cube["thickness"].to_numpy(), cube["overlength"].to_numpy())
         decade_ticks(column[0].xaxis)
         decade_ticks(column[0].yaxis)
     axes[0, 0].set_ylabel("stiffness (N/m)")
     axes[1, 0].set_ylabel("stiffness / fitted law")
-    handles, labels = axes[0, 0].get_legend_handles_labels()
-    if handles:
-        figure.legend(handles, labels, loc="outside lower center", ncols=min(6, len(labels)))
+    legend_below(figure, axes[0], 6)
     return figure
 
 

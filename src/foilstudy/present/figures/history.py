@@ -7,6 +7,7 @@ import numpy as np
 from foilstudy.plot.crumples import catalogue, read_history, typical_configuration
 from foilstudy.plot.style import (
     label_ends,
+    message_figure,
     message_panel,
     new_figure,
     ordered_colours,
@@ -29,9 +30,7 @@ def draw(crumple_paths):
     """
     crumples = typical_configuration(catalogue(crumple_paths))
     if not crumples:
-        figure = new_figure(6, 2)
-        message_panel(figure.subplots(), "no usable realisation in this study", 60)
-        return figure
+        return message_figure()
     crumple = crumples[0]
     history = read_history(crumple)
     figure = new_figure(8.2, 7.6)

@@ -11,7 +11,7 @@ from foilstudy.plot.crumples import RecordedCrumple, catalogue
 from foilstudy.plot.mac import ModeLabels, draw_mac
 from foilstudy.plot.modes import RecordedModes, recorded_modes
 from foilstudy.plot.style import (
-    message_panel,
+    message_figure,
     new_figure,
     overlength_label,
     styled,
@@ -36,10 +36,9 @@ def draw(crumple_paths, response_paths):
         if len(modes) == len(cell)
     ]
     if not cases:
-        figure = new_figure(6, 2)
-        text = "no usable realisation, or no configuration with the mode shapes of two seeds"
-        message_panel(figure.subplots(), text, 60)
-        return figure
+        return message_figure(
+            "no usable realisation, or no configuration with the mode shapes of two seeds"
+        )
     figure = new_figure(4.7 * len(cases) + 0.6, 5.2)
     axes = figure.subplots(1, len(cases), squeeze=False)[0]
     for ax, case in zip(axes, cases):

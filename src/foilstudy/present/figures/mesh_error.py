@@ -6,6 +6,7 @@ import numpy as np
 
 from foilstudy.plot.style import (
     PAGE_WIDTH,
+    legend_below,
     line_style,
     marker,
     message_panel,
@@ -34,8 +35,7 @@ def draw(cube):
     figure = new_figure(PAGE_WIDTH, 4.2)
     axes = figure.subplots(1, len(directions), sharey=True, squeeze=False)[0]
     if not (percent > 0).any():
-        for ax in axes:
-            message_panel(ax, "no usable realisation with a mesh error in this study")
+        message_panel(axes, "no usable realisation with a mesh error in this study")
         return figure
     for ax, direction in zip(axes, directions):
         ax.set_title(f"{direction} stiffness")
@@ -43,10 +43,8 @@ def draw(cube):
         overlength_axis(ax, cube["overlength"].to_numpy())
         _panel(ax, percent.sel(direction=direction))
     axes[0].set_ylabel("stated mesh error (%)")
-    low, high = axes[0].get_ylim()
-    value_ticks(axes[0].yaxis, [tick for tick in _TICKS if low <= tick <= high])
-    handles, labels = axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=min(7, len(labels)))
+    value_ticks(axes[0].yaxis, _TICKS)
+    legend_below(figure, axes, 7)
     return figure
 
 

@@ -8,14 +8,16 @@ from foilstudy.plot.style import (
     BAND_ALPHA,
     GREY,
     decade_ticks,
+    legend_below,
     line_style,
+    message_figure,
     message_panel,
-    new_figure,
     ordered_colours,
     overlength_label,
     styled,
     thickness_label,
     value_ticks,
+    wrapped_grid,
 )
 from foilstudy.present.statistics.modal_density import (
     ELEMENTS_PER_WAVE,
@@ -38,20 +40,15 @@ def draw(cube):
     cube : xarray.Dataset
     """
     if "mode_count" not in cube:
-        figure = new_figure(6, 2)
-        message_panel(figure.subplots(), "no usable mode counts in this study", 60)
-        return figure
+        return message_figure("no usable mode counts in this study")
     density, plate, limit = (
         function(cube) for function in (counted_modal_density, plate_modal_density, resolved_up_to)
     )
     density = density.sel(frequency=density["frequency"] >= _start(density))
     thicknesses = cube["thickness"].to_numpy()
-    columns = min(_COLUMNS, thicknesses.size)
-    rows = -(-thicknesses.size // columns)
-    figure = new_figure(4.3 * columns + 0.6, 2.7 * rows + 0.8)
-    axes = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
-    for spare in axes.flat[thicknesses.size :]:
-        spare.set_axis_off()
+    figure, axes = wrapped_grid(
+        thicknesses.size, _COLUMNS, (4.3, 2.7), (0.6, 0.8), sharex=True, sharey=True
+    )
     for ax, thickness in zip(axes.flat, thicknesses):
         at = {"thickness": thickness}
         ax.set_title(thickness_label(thickness))
@@ -133,14 +130,6 @@ def _label(figure, axes) -> None:
         ax.set_xlabel("frequency (Hz)")
     for ax in axes[:, 0]:
         ax.set_ylabel("modes per Hz")
-    low, high = shown[0].get_xlim()
-    value_ticks(
-        shown[0].xaxis, [f for f in (10, 20, 50, 100, 200, 500, 800, 2000) if low <= f <= high]
-    )
+    value_ticks(shown[0].xaxis, (10, 20, 50, 100, 200, 500, 800, 2000))
     decade_ticks(shown[0].yaxis)
-    handles, labels = max(
-        (ax.get_legend_handles_labels() for ax in shown), key=lambda pair: len(pair[0])
-    )
-    figure.legend(
-        handles, labels, title="overlength", loc="outside lower center", ncols=min(8, len(labels))
-    )
+    legend_below(figure, shown, title="overlength")

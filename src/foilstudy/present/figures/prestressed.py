@@ -9,12 +9,11 @@ import numpy as np
 from foilstudy.base.reference import published
 from foilstudy.plot.style import (
     GREY,
-    PAGE_WIDTH,
     decade_ticks,
     message_panel,
-    new_figure,
     ordered_colours,
     overlength_axis,
+    panel_grid,
     span,
     styled,
     thickness_label,
@@ -65,11 +64,11 @@ def draw(cube):
     thicknesses = cube["thickness"].to_numpy()
     overlengths = cube["overlength"].to_numpy()
     series = [s for s in _SERIES if _known(cube, s)]
-    figure = new_figure(min(PAGE_WIDTH, 2.2 * thicknesses.size + 2.6), 3.0 * len(directions) + 0.7)
-    axes = figure.subplots(len(directions), thicknesses.size, sharey="row", squeeze=False)
+    figure, axes = panel_grid(
+        len(directions), thicknesses.size, (2.2, 3.0), (2.6, 0.7), sharey="row"
+    )
     if not any(s.source.startswith("simulation pre-stressed") for s in series):
-        for ax in axes.flat:
-            message_panel(ax, "no usable realisation with a pre-stressed stiffness")
+        message_panel(axes, "no usable realisation with a pre-stressed stiffness")
         return figure
     for row, direction in zip(axes, directions):
         for ax, thickness in zip(row, thicknesses):

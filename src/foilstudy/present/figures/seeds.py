@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from foilstudy.plot.crumples import catalogue, typical_configuration
 from foilstudy.plot.style import (
-    message_panel,
-    new_figure,
+    message_figure,
     overlength_label,
     styled,
     thickness_label,
@@ -25,9 +24,7 @@ def draw(crumple_paths):
     """
     crumples = typical_configuration(catalogue(crumple_paths))[:MOST]
     if not crumples:
-        figure = new_figure(6, 2)
-        message_panel(figure.subplots(), "no usable realisation in this study", 60)
-        return figure
+        return message_figure()
     columns = 3 if len(crumples) > 3 else len(crumples)
     rows = [crumples[i : i + columns] for i in range(0, len(crumples), columns)]
     figure = draw_grid(

@@ -8,14 +8,13 @@ from foilstudy.base.reference import published
 from foilstudy.plot.style import (
     BAND_ALPHA,
     GREY,
-    PAGE_WIDTH,
     decade_ticks,
-    new_figure,
     ordered_colours,
     overlength_axis,
     span,
     styled,
     thickness_label,
+    wrapped_grid,
 )
 from foilstudy.present.statistics import simulated_law, stiffness_summary
 
@@ -45,28 +44,23 @@ def draw(cube, direction: str):
     fitted = simulated_law(cube, direction)
     thicknesses = cube["thickness"].to_numpy()
     overlengths = cube["overlength"].to_numpy()
-    columns = min(4, thicknesses.size)
-    rows = -(-thicknesses.size // columns)
-    figure = new_figure(min(PAGE_WIDTH, 2.0 * columns + 4.6), 3.6 * rows + 0.6)
-    axes = figure.subplots(rows, columns, sharey=True, squeeze=False).ravel()
+    figure, axes = wrapped_grid(thicknesses.size, 4, (2.0, 3.6), (4.6, 0.6), sharey=True)
     fine = np.geomspace(*span(overlengths, 1.15), 60)
-    for ax, thickness in zip(axes, thicknesses):
+    for ax, thickness in zip(axes.flat, thicknesses):
         ax.set_title(thickness_label(thickness))
         ax.set_yscale("log")
         overlength_axis(ax, overlengths)
         _panel(ax, table[table["thickness_um"] == thickness])
         _laws(ax, fitted.law, direction, fine, thickness)
-    for ax in axes[thicknesses.size :]:
-        ax.set_visible(False)
-    decade_ticks(axes[0].yaxis)
-    for ax in axes[::columns]:
+    decade_ticks(axes[0, 0].yaxis)
+    for ax in axes[:, 0]:
         ax.set_ylabel(f"{direction} stiffness (N/m)")
-    by_label = dict(zip(*axes[0].get_legend_handles_labels()[::-1]))
+    by_label = dict(zip(*axes[0, 0].get_legend_handles_labels()[::-1]))
     figure.legend(
         [by_label[label] for label in _LEGEND],
         _LEGEND,
         loc="outside lower center",
-        ncols=3 if columns > 2 else 2,
+        ncols=3 if axes.shape[1] > 2 else 2,
     )
     figure.suptitle(_law_text(fitted.fit), fontsize=10.5)
     return figure

@@ -39,8 +39,7 @@ def draw(cube):
     mean = table["mean"].to_numpy()
     mean = mean[np.isfinite(mean)]
     if not mean.size:
-        for ax in axes:
-            message_panel(ax, "no usable realisation in this study")
+        message_panel(axes, "no usable realisation in this study")
         return figure
     exponents = np.log10([mean.min(), mean.max()]) * _STEPS_PER_DECADE
     first, last = int(np.floor(exponents[0])), int(np.ceil(exponents[1]))

@@ -7,14 +7,15 @@ from matplotlib.ticker import MultipleLocator
 
 from foilstudy.measure.isolation import decibels
 from foilstudy.plot.style import (
-    BAND_ALPHA,
     PAGE_WIDTH,
     decade_ticks,
+    legend_below,
     line_style,
+    median_band,
     message_panel,
-    new_figure,
     ordered_colours,
     overlength_label,
+    panel_grid,
     styled,
     thickness_label,
 )
@@ -35,8 +36,8 @@ def draw(cube):
     cube : xarray.Dataset
     """
     directions = list(map(str, cube["direction"].values))
-    figure = new_figure(PAGE_WIDTH, 3.0 * len(directions) + 0.8)
-    axes = figure.subplots(len(directions), len(MOUNTS), sharex=True, sharey=True, squeeze=False)
+    size = (PAGE_WIDTH, 3.0), (0, 0.8)
+    figure, axes = panel_grid(len(directions), len(MOUNTS), *size, sharex=True, sharey=True)
     frequency, thicknesses = cube["frequency"].to_numpy(), cube["thickness"].to_numpy()
     shown = np.arange(thicknesses.size)
     if shown.size > _THICKNESSES_MAX:
@@ -50,8 +51,13 @@ def draw(cube):
                 continue
             ax.set_title(f"{direction}, {mount} mount")
             for i, colour in zip(shown, ordered_colours(shown.size)):
-                label = thickness_label(thicknesses[i])
-                _band(ax, frequency, decibels(motion.linked[i, middle]), (colour, label))
+                curves = decibels(motion.linked[i, middle])
+                # A realisation counts as far up as its dynamic stiffness is known.
+                if np.isfinite(curves).any():
+                    # As many line styles as curves: told apart without colour.
+                    look = {"lw": 1.5, "ls": line_style(1 + len(ax.get_lines()))}
+                    look["label"] = thickness_label(thicknesses[i])
+                    median_band(ax, frequency, curves, colour, **look)
             ax.plot(frequency, decibels(motion.alone), color="black", lw=1.1, label="mount alone")
             ax.set_xscale("log")
             ax.set_xlim(frequency[0], frequency[-1])
@@ -61,36 +67,11 @@ def draw(cube):
         ax.set_xlabel("frequency (Hz)")
     if axes[0, 0].get_xscale() == "log":
         decade_ticks(axes[0, 0].xaxis)
-    _legend(figure, axes, isolation_options(cube), float(cube["overlength"][middle]))
-    return figure
-
-
-def _band(ax, frequency, curves, look) -> None:
-    colour, label = look
-    # A realisation counts as far up as its dynamic stiffness is known.
-    known = np.isfinite(curves).any(axis=0)
-    if not known.any():
-        return
-    frequency, curves = frequency[known], curves[:, known]
-    low, high = np.nanmin(curves, axis=0), np.nanmax(curves, axis=0)
-    ax.fill_between(frequency, low, high, color=colour, alpha=BAND_ALPHA, lw=0)
-    # As many line styles as curves: told apart without colour.
-    style = line_style(1 + len(ax.get_lines()))
-    ax.plot(frequency, np.nanmedian(curves, axis=0), color=colour, lw=1.5, ls=style, label=label)
-
-
-def _legend(figure, axes, options, overlength: float) -> None:
-    handles, labels = max(
-        (ax.get_legend_handles_labels() for ax in axes.flat), key=lambda pair: len(pair[0])
-    )
-    if not handles:
-        return
+    options = isolation_options(cube)
     links = "one link" if options.links == 1 else f"{options.links} links"
-    figure.legend(
-        handles,
-        labels,
-        title=f"{options.payload_mass_kg:g} kg on its mounts, with {links} of "
-        f"{overlength_label(overlength)} overlength and a thickness of",
-        loc="outside lower center",
-        ncols=len(labels),
+    title = (
+        f"{options.payload_mass_kg:g} kg on its mounts, with {links} of "
+        f"{overlength_label(float(cube['overlength'][middle]))} overlength and a thickness of"
     )
+    legend_below(figure, axes, title=title)
+    return figure

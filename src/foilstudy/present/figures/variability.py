@@ -7,6 +7,7 @@ import numpy as np
 from foilstudy.plot.style import (
     BAND_ALPHA,
     PAGE_WIDTH,
+    legend_below,
     marker,
     message_panel,
     new_figure,
@@ -44,10 +45,7 @@ def draw(cube):
         # Confidence limits of few realisations are wide: let the largest leave the figure.
         axes[0].set_ylim(0, 1.08 * max(values.max(), min(table["cv_high"].max(), 2 * values.max())))
         axes[0].set_ylabel("coefficient of variation")
-        handles, labels = next(
-            ax.get_legend_handles_labels() for ax in axes if ax.get_legend_handles_labels()[0]
-        )
-        figure.legend(handles, labels, loc="outside lower center", ncols=min(7, len(labels)))
+        legend_below(figure, axes, 7)
     return figure
 
 

@@ -8,6 +8,7 @@ from foilstudy.base.reference import EXPLICIT_CODE_ENERGIES, published
 from foilstudy.plot.style import (
     GREY,
     PAGE_WIDTH,
+    legend_below,
     line_style,
     marker,
     new_figure,
@@ -97,8 +98,7 @@ def stiffness(study: Results):
         ax.set_yscale("log")
         ax.set_ylabel("stiffness (N/m)")
         ax.set_title(f"{thickness} µm, h_ref {HEIGHT_MM} mm")
-    handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=4, fontsize=8.5)
+    legend_below(figure, panels[0], 4, fontsize=8.5)
     return figure
 
 

@@ -5,7 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from foilstudy.base.reference import EXPLICIT_CODE_ENERGIES
-from foilstudy.plot.style import GREY, PAGE_WIDTH, line_style, marker, new_figure, styled
+from foilstudy.plot.style import (
+    GREY,
+    PAGE_WIDTH,
+    legend_below,
+    line_style,
+    marker,
+    new_figure,
+    styled,
+)
 from foilstudy.study.elements.bending import SLENDERNESS
 from foilstudy.study.elements.plan import BASELINE, COARSE_MM, DEFAULT, FROZEN
 from foilstudy.study.elements.summary import variant_row
@@ -46,8 +54,7 @@ def draw(study: Results):
         _against_cost(ax, study, key)
         ax.set_title(title)
     _crumple_energy(axes[2, 1], study)
-    handles, labels = axes[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=_LEGEND_COLUMNS, fontsize=8.5)
+    legend_below(figure, axes[0, 0], _LEGEND_COLUMNS, fontsize=8.5)
     return figure
 
 
