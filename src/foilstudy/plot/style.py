@@ -91,6 +91,11 @@ def ordered_colours(n: int) -> list:
     return list(mpl.colormaps["viridis"](np.linspace(0.0, 0.76, n) if n > 1 else [0.25]))
 
 
+def coloured(values) -> list[tuple]:
+    """Values, each with its colour of `ordered_colours`."""
+    return list(zip(values, ordered_colours(len(values)), strict=True))
+
+
 def marker(index: int) -> str:
     """Marker of the series at `index`."""
     return _MARKERS[index % len(_MARKERS)]

@@ -5,23 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from foilstudy.base.outcome import USABLE
-from foilstudy.plot.style import (
-    decade_ticks,
-    legend_below,
-    line_style,
-    median_band,
-    message_panel,
-    ordered_colours,
-    overlength_label,
-    panel_grid,
-    styled,
-    thickness_label,
-    value_ticks,
-)
+from foilstudy.plot import style
 from foilstudy.present.statistics.cells import good
 
 
-@styled
+@style.styled
 def draw(cube, definition: str):
     """Draw one panel per direction (row) and thickness (column), one curve per overlength.
 
@@ -35,7 +23,7 @@ def draw(cube, definition: str):
     magnitude = magnitude.where(cube["status"].isin(USABLE))
     directions = list(map(str, cube["direction"].values))
     thicknesses = cube["thickness"].to_numpy()
-    figure, axes = panel_grid(
+    figure, axes = style.panel_grid(
         len(directions), thicknesses.size, (2.2, 2.9), (2.2, 0.6), sharex=True, sharey=True
     )
     for row, direction in zip(axes, directions):
@@ -45,13 +33,13 @@ def draw(cube, definition: str):
             _panel(ax, magnitude.sel(at | {"direction": direction}), static.sel(at))
         row[0].set_ylabel(f"{direction} |k| (N/m)")
     for ax, thickness in zip(axes[0], thicknesses):
-        ax.set_title(thickness_label(thickness))
+        ax.set_title(style.thickness_label(thickness))
     for ax in axes[-1]:
         ax.set_xlabel("frequency (Hz)")
-        value_ticks(ax.xaxis, (1, 10, 100, 800))
+        style.value_ticks(ax.xaxis, (1, 10, 100, 800))
     if axes[0, 0].get_yscale() == "log":
-        decade_ticks(axes[0, 0].yaxis)
-    legend_below(figure, axes, title="overlength")
+        style.decade_ticks(axes[0, 0].yaxis)
+    style.legend_below(figure, axes, title="overlength")
     return figure
 
 
@@ -60,20 +48,21 @@ def _panel(ax, magnitude, static) -> None:
     left, right = frequency[0] / 1.6, frequency[-1] * 1.1
     overlengths = magnitude["overlength"].to_numpy()
     drawn = False
-    for j, colour in enumerate(ordered_colours(overlengths.size)):
+    for j, colour in enumerate(style.ordered_colours(overlengths.size)):
         curves = magnitude.isel(overlength=j).transpose("seed", "frequency").to_numpy()
         if not np.isfinite(curves).any():
             continue
         drawn = True
         # a reduced model that is not valid up to the end of the band leaves the rest out
-        look = {"lw": 1.4, "ls": line_style(j), "label": overlength_label(overlengths[j])}
-        median_band(ax, frequency, curves, colour, **look)
+        name = style.overlength_label(overlengths[j])
+        look = {"lw": 1.4, "ls": style.line_style(j), "label": name}
+        style.median_band(ax, frequency, curves, colour, **look)
         ax.plot(
             left * 1.17, static.isel(overlength=j), ">", color=colour, ms=5.5, mec="white", mew=0.4,
             clip_on=False,
         )  # fmt: skip
     if not drawn:
-        message_panel(ax, "no usable realisation")
+        style.message_panel(ax, "no usable realisation")
         return
     ax.set_xscale("log")
     ax.set_yscale("log")

@@ -5,19 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from foilstudy.base.outcome import USABLE
-from foilstudy.plot.style import (
-    legend_below,
-    message_panel,
-    overlength_label,
-    styled,
-    thickness_label,
-    wrapped_grid,
-)
+from foilstudy.plot import style
 
 _PARTS = {"bending": ("0.35", ""), "membrane": ("0.65", ""), "stabilisation": ("#d95f02", "///")}
 
 
-@styled
+@style.styled
 def draw(cube):
     """Draw one panel per thickness, one bar per overlength.
 
@@ -36,13 +29,13 @@ def draw(cube):
     }
     thicknesses = cube["thickness"].to_numpy()
     overlengths = cube["overlength"].to_numpy()
-    figure, axes = wrapped_grid(thicknesses.size, 4, (2.2, 3.0), (2.2, 0.5), sharey=True)
+    figure, axes = style.wrapped_grid(thicknesses.size, 4, (2.2, 3.0), (2.2, 0.5), sharey=True)
     for i, (ax, thickness) in enumerate(zip(axes.flat, thicknesses)):
-        ax.set_title(thickness_label(thickness), pad=16)
+        ax.set_title(style.thickness_label(thickness), pad=16)
         _bars(ax, {name: values[i] for name, values in parts.items()}, overlengths)
     for ax in axes[:, 0]:
         ax.set_ylabel("share of strain energy (%)")
-    legend_below(figure, axes)
+    style.legend_below(figure, axes)
     return figure
 
 
@@ -50,7 +43,7 @@ def _bars(ax, parts, overlengths) -> None:
     total = sum(parts.values())
     known = np.isfinite(total) & (total > 0)
     if not known.any():
-        message_panel(ax, "no usable realisation")
+        style.message_panel(ax, "no usable realisation")
         return
     x = np.arange(overlengths.size)
     base = np.zeros(overlengths.size)
@@ -65,7 +58,7 @@ def _bars(ax, parts, overlengths) -> None:
         ax.text(i, 102 if known[i] else 2, text, ha="center", va="bottom", fontsize=8, color="0.25")
     ax.set_ylim(0, 100)
     ax.grid(axis="x", visible=False)
-    ax.set_xticks(x, [overlength_label(o)[:-2] for o in overlengths])
+    ax.set_xticks(x, [style.overlength_label(o)[:-2] for o in overlengths])
     ax.set_xlabel("overlength (%)")
 
 

@@ -7,19 +7,13 @@ from itertools import combinations
 import numpy as np
 
 from foilstudy.measure.dynamics.mac import mac
+from foilstudy.plot import style
 from foilstudy.plot.crumples import RecordedCrumple, catalogue
 from foilstudy.plot.mac import ModeLabels, draw_mac
 from foilstudy.plot.modes import RecordedModes, recorded_modes
-from foilstudy.plot.style import (
-    message_figure,
-    new_figure,
-    overlength_label,
-    styled,
-    thickness_label,
-)
 
 
-@styled
+@style.styled
 def draw(crumple_paths, response_paths):
     """Draw the MAC of two seeds, for the thinnest and the thickest foil at its middle overlength.
 
@@ -36,10 +30,10 @@ def draw(crumple_paths, response_paths):
         if len(modes) == len(cell)
     ]
     if not cases:
-        return message_figure(
+        return style.message_figure(
             "no usable realisation, or no configuration with the mode shapes of two seeds"
         )
-    figure = new_figure(4.7 * len(cases) + 0.6, 5.2)
+    figure = style.new_figure(4.7 * len(cases) + 0.6, 5.2)
     axes = figure.subplots(1, len(cases), squeeze=False)[0]
     for ax, case in zip(axes, cases):
         image = _panel(ax, case)
@@ -75,8 +69,8 @@ def _panel(ax, case: list[tuple[RecordedCrumple, RecordedModes]]):
     best = best_partners([modes for _, modes in case])
     pairs = len(case) * (len(case) - 1) // 2
     name = (
-        f"{thickness_label(first.thickness_um)}, "
-        f"overlength {overlength_label(first.overlength_percent)}"
+        f"{style.thickness_label(first.thickness_um)}, "
+        f"overlength {style.overlength_label(first.overlength_percent)}"
     )
     among = f"{pairs} pairs of seeds" if pairs > 1 else "this pair"
     ax.set_title(

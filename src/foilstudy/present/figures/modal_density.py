@@ -4,21 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from foilstudy.plot.style import (
-    BAND_ALPHA,
-    GREY,
-    decade_ticks,
-    legend_below,
-    line_style,
-    message_figure,
-    message_panel,
-    ordered_colours,
-    overlength_label,
-    styled,
-    thickness_label,
-    value_ticks,
-    wrapped_grid,
-)
+from foilstudy.plot import style
 from foilstudy.present.statistics.modal_density import (
     ELEMENTS_PER_WAVE,
     counted_modal_density,
@@ -31,7 +17,7 @@ _LOWEST_DENSITY = 0.01
 """Bottom of the axis, modes per Hz: less means that a band has just met its first mode."""
 
 
-@styled
+@style.styled
 def draw(cube):
     """Draw one panel per thickness, one curve per overlength.
 
@@ -40,18 +26,18 @@ def draw(cube):
     cube : xarray.Dataset
     """
     if "mode_count" not in cube:
-        return message_figure("no usable mode counts in this study")
+        return style.message_figure("no usable mode counts in this study")
     density, plate, limit = (
         function(cube) for function in (counted_modal_density, plate_modal_density, resolved_up_to)
     )
     density = density.sel(frequency=density["frequency"] >= _start(density))
     thicknesses = cube["thickness"].to_numpy()
-    figure, axes = wrapped_grid(
+    figure, axes = style.wrapped_grid(
         thicknesses.size, _COLUMNS, (4.3, 2.7), (0.6, 0.8), sharex=True, sharey=True
     )
     for ax, thickness in zip(axes.flat, thicknesses):
         at = {"thickness": thickness}
-        ax.set_title(thickness_label(thickness))
+        ax.set_title(style.thickness_label(thickness))
         _panel(ax, density.sel(at), None if plate is None else plate.sel(at))
         if limit is not None and np.isfinite(limit.sel(at)):
             _unresolved(ax, float(limit.sel(at)), float(density["frequency"][-1]))
@@ -69,7 +55,7 @@ def _panel(ax, density, plate) -> None:
     frequency = density["frequency"].to_numpy()
     overlengths = density["overlength"].to_numpy()
     drawn = False
-    for j, colour in enumerate(ordered_colours(overlengths.size)):
+    for j, colour in enumerate(style.ordered_colours(overlengths.size)):
         curves = density.isel(overlength=j).transpose("seed", "frequency").to_numpy()
         curves = curves[np.isfinite(curves).any(axis=1)]
         if not (curves > 0).any():
@@ -78,16 +64,16 @@ def _panel(ax, density, plate) -> None:
         curves = np.where(curves > 0, curves, np.nan)  # a band without modes leaves a gap
         known = np.isfinite(curves).all(axis=0)
         low, high = (np.where(known, edge(curves, axis=0), np.nan) for edge in (np.min, np.max))
-        ax.fill_between(frequency, low, high, color=colour, alpha=BAND_ALPHA, lw=0)
+        ax.fill_between(frequency, low, high, color=colour, alpha=style.BAND_ALPHA, lw=0)
         ax.plot(
             frequency,
             np.where(known, np.median(curves, axis=0), np.nan),
             color=colour,
-            ls=line_style(j),
-            label=overlength_label(overlengths[j]),
+            ls=style.line_style(j),
+            label=style.overlength_label(overlengths[j]),
         )
     if not drawn:
-        message_panel(ax, "no usable realisation")
+        style.message_panel(ax, "no usable realisation")
         return
     if plate is not None:
         _plate(ax, float(plate.min()), float(plate.max()))
@@ -99,9 +85,9 @@ def _panel(ax, density, plate) -> None:
 
 def _plate(ax, low: float, high: float) -> None:
     """Show the flat plates from the smallest to the largest area."""
-    ax.axhspan(low, high, color=GREY, alpha=BAND_ALPHA, lw=0)
+    ax.axhspan(low, high, color=style.GREY, alpha=style.BAND_ALPHA, lw=0)
     for level in (low, high):
-        ax.axhline(level, color=GREY, lw=1, ls="--")
+        ax.axhline(level, color=style.GREY, lw=1, ls="--")
     ax.text(
         0.02, high * 1.12, "flat plate", transform=ax.get_yaxis_transform(), color="0.3", fontsize=9
     )
@@ -130,6 +116,6 @@ def _label(figure, axes) -> None:
         ax.set_xlabel("frequency (Hz)")
     for ax in axes[:, 0]:
         ax.set_ylabel("modes per Hz")
-    value_ticks(shown[0].xaxis, (10, 20, 50, 100, 200, 500, 800, 2000))
-    decade_ticks(shown[0].yaxis)
-    legend_below(figure, shown, title="overlength")
+    style.value_ticks(shown[0].xaxis, (10, 20, 50, 100, 200, 500, 800, 2000))
+    style.decade_ticks(shown[0].yaxis)
+    style.legend_below(figure, shown, title="overlength")

@@ -6,19 +6,7 @@ import numpy as np
 from matplotlib.ticker import MultipleLocator
 
 from foilstudy.measure.isolation import decibels
-from foilstudy.plot.style import (
-    PAGE_WIDTH,
-    decade_ticks,
-    legend_below,
-    line_style,
-    median_band,
-    message_panel,
-    ordered_colours,
-    overlength_label,
-    panel_grid,
-    styled,
-    thickness_label,
-)
+from foilstudy.plot import style
 from foilstudy.present.configuration import isolation_options
 from foilstudy.present.statistics.isolation import payload_transmissibility
 from foilstudy.present.statistics.mounts import MOUNTS
@@ -27,7 +15,7 @@ _THICKNESSES_MAX = 4
 """More curves than this in one panel cannot be told apart."""
 
 
-@styled
+@style.styled
 def draw(cube):
     """Draw one panel per direction (row) and mount (column), one band per thickness.
 
@@ -36,8 +24,8 @@ def draw(cube):
     cube : xarray.Dataset
     """
     directions = list(map(str, cube["direction"].values))
-    size = (PAGE_WIDTH, 3.0), (0, 0.8)
-    figure, axes = panel_grid(len(directions), len(MOUNTS), *size, sharex=True, sharey=True)
+    size = (style.PAGE_WIDTH, 3.0), (0, 0.8)
+    figure, axes = style.panel_grid(len(directions), len(MOUNTS), *size, sharex=True, sharey=True)
     frequency, thicknesses = cube["frequency"].to_numpy(), cube["thickness"].to_numpy()
     shown = np.arange(thicknesses.size)
     if shown.size > _THICKNESSES_MAX:
@@ -47,17 +35,17 @@ def draw(cube):
         found = payload_transmissibility(cube, direction)
         for ax, (mount, motion) in zip(row, found.items()):
             if not np.isfinite(motion.linked[:, middle]).any():
-                message_panel(ax, "no usable realisation at the middle overlength")
+                style.message_panel(ax, "no usable realisation at the middle overlength")
                 continue
             ax.set_title(f"{direction}, {mount} mount")
-            for i, colour in zip(shown, ordered_colours(shown.size)):
+            for i, colour in zip(shown, style.ordered_colours(shown.size)):
                 curves = decibels(motion.linked[i, middle])
                 # A realisation counts as far up as its dynamic stiffness is known.
                 if np.isfinite(curves).any():
                     # As many line styles as curves: told apart without colour.
-                    look = {"lw": 1.5, "ls": line_style(1 + len(ax.get_lines()))}
-                    look["label"] = thickness_label(thicknesses[i])
-                    median_band(ax, frequency, curves, colour, **look)
+                    look = {"lw": 1.5, "ls": style.line_style(1 + len(ax.get_lines()))}
+                    look["label"] = style.thickness_label(thicknesses[i])
+                    style.median_band(ax, frequency, curves, colour, **look)
             ax.plot(frequency, decibels(motion.alone), color="black", lw=1.1, label="mount alone")
             ax.set_xscale("log")
             ax.set_xlim(frequency[0], frequency[-1])
@@ -66,12 +54,12 @@ def draw(cube):
     for ax in axes[-1]:
         ax.set_xlabel("frequency (Hz)")
     if axes[0, 0].get_xscale() == "log":
-        decade_ticks(axes[0, 0].xaxis)
+        style.decade_ticks(axes[0, 0].xaxis)
     options = isolation_options(cube)
     links = "one link" if options.links == 1 else f"{options.links} links"
     title = (
         f"{options.payload_mass_kg:g} kg on its mounts, with {links} of "
-        f"{overlength_label(float(cube['overlength'][middle]))} overlength and a thickness of"
+        f"{style.overlength_label(float(cube['overlength'][middle]))} overlength and a thickness of"
     )
-    legend_below(figure, axes, title=title)
+    style.legend_below(figure, axes, title=title)
     return figure

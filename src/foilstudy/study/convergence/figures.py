@@ -5,17 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from foilstudy.base.reference import EXPLICIT_CODE_ENERGIES, published
-from foilstudy.plot.style import (
-    GREY,
-    PAGE_WIDTH,
-    legend_below,
-    line_style,
-    marker,
-    new_figure,
-    ordered_colours,
-    styled,
-    value_ticks,
-)
+from foilstudy.plot import style
 from foilstudy.study.convergence import plan
 from foilstudy.study.convergence.analysis import fit, means, slope
 from foilstudy.study.convergence.records import ensemble
@@ -31,17 +21,17 @@ _REACHED = 1e-12
 
 
 def _panels(columns: int = 2, height: float = 4.4):
-    figure = new_figure(PAGE_WIDTH, height)
+    figure = style.new_figure(style.PAGE_WIDTH, height)
     return figure, figure.subplots(1, columns)
 
 
 def _size_axis(ax) -> None:
     ax.set_xscale("log")
-    value_ticks(ax.xaxis, plan.SIZES_MM)
+    style.value_ticks(ax.xaxis, plan.SIZES_MM)
     ax.set_xlabel("element size (mm)")
 
 
-@styled
+@style.styled
 def energy(study: Results):
     """Strain energy of every crumple against element size, with fit and published values."""
     figure, panels = _panels()
@@ -52,12 +42,14 @@ def energy(study: Results):
             if case.thickness_um == thickness:
                 sizes = [record["size_mm"] for record in levels]
                 energies = [record["strain_energy"] for record in levels]
-                ax.plot(sizes, energies, ls=":", marker="^", color=GREY, label="refined, relaxed")
+                ax.plot(
+                    sizes, energies, ls=":", marker="^", color=style.GREY, label="refined, relaxed"
+                )
         if thickness == 500:
             for size, energies in EXPLICIT_CODE_ENERGIES.items():
-                style = {"ls": "none", "marker": "D", "color": _OTHER}
+                look = {"ls": "none", "marker": "D", "color": _OTHER}
                 label = "other code (QEPH)" if size == max(EXPLICIT_CODE_ENERGIES) else None
-                ax.plot([size] * len(energies), energies, **style, label=label)
+                ax.plot([size] * len(energies), energies, **look, label=label)
         else:
             ax.set_yscale("log")
         _size_axis(ax)
@@ -80,7 +72,7 @@ def _energy_of(ax, study, thickness, element, label) -> None:
     ax.plot(curve, fitted(curve), color=colour, lw=1.2, label=f"{label}: {limit}")
 
 
-@styled
+@style.styled
 def stiffness(study: Results):
     """Stress-free stiffness on the crumple's own mesh and its limit for the same shape."""
     figure, panels = _panels()
@@ -98,17 +90,24 @@ def stiffness(study: Results):
         ax.set_yscale("log")
         ax.set_ylabel("stiffness (N/m)")
         ax.set_title(f"{thickness} µm, h_ref {HEIGHT_MM} mm")
-    legend_below(figure, panels[0], 4, fontsize=8.5)
+    style.legend_below(figure, panels[0], 4, fontsize=8.5)
     return figure
 
 
 def _line(ax, seeds, label, colour, index) -> None:
     sizes = list(seeds)
     mean = [np.mean(values) for values in seeds.values()]
-    ax.plot(sizes, mean, ls=line_style(index), marker=marker(index), color=colour, label=label)
+    ax.plot(
+        sizes,
+        mean,
+        ls=style.line_style(index),
+        marker=style.marker(index),
+        color=colour,
+        label=label,
+    )
 
 
-@styled
+@style.styled
 def stabilisation(study: Results):
     """Share of the strain energy that only holds the in-plane checkerboard."""
     figure, ax = _panels(1)
@@ -125,18 +124,18 @@ def stabilisation(study: Results):
     return figure
 
 
-@styled
+@style.styled
 def run_time(study: Results):
     """Time of a step, and of a whole crumple, against element size."""
     figure, (steps, whole) = _panels()
-    colours = ordered_colours(len(THICKNESSES_UM))
+    colours = style.ordered_colours(len(THICKNESSES_UM))
     exponents = published().run_time_exponents
     for index, thickness in enumerate(THICKNESSES_UM):
         rows = [row for row in study["timing"]["steps"] if row["thickness_um"] == thickness]
         sizes = np.array([row["size_mm"] for row in rows])
         seconds = np.array([row["seconds_per_step"] for row in rows])
         exponent, _ = slope(sizes, seconds)
-        steps.plot(sizes, 1e3 * seconds, marker=marker(index), color=colours[index],
+        steps.plot(sizes, 1e3 * seconds, marker=style.marker(index), color=colours[index],
                    label=f"{thickness} µm: slope {exponent:.2f}")  # fmt: skip
         expected = seconds[-1] * (sizes / sizes[-1]) ** exponents[thickness]
         steps.plot(sizes, 1e3 * expected, ls=":", color=colours[index],
@@ -155,12 +154,12 @@ def run_time(study: Results):
     return figure
 
 
-@styled
+@style.styled
 def stops(study: Results):
     """How far the stiffness is from that at the last residual, by the residual of the stop."""
     figure, panels = _panels()
     quantities = {"static_stiffness": "stress-free", "prestressed_stiffness": "pre-stressed"}
-    colours = ordered_colours(len(THICKNESSES_UM))
+    colours = style.ordered_colours(len(THICKNESSES_UM))
     for ax, (key, title) in zip(panels, quantities.items(), strict=True):
         for case, records in study["stops"].items():
             residuals = [record["residual"] for record in records]
@@ -169,7 +168,7 @@ def stops(study: Results):
             colour = colours[THICKNESSES_UM.index(case.thickness_um)]
             for index in range(2):
                 ax.plot(residuals[:-1], change[:-1, index], color=colour, lw=1.0, ms=4,
-                        ls=line_style(index), marker=marker(index),
+                        ls=style.line_style(index), marker=style.marker(index),
                         label=f"{case.thickness_um} µm, {_DIRECTIONS[index]}")  # fmt: skip
         ax.set_xscale("log")
         ax.set_yscale("log")

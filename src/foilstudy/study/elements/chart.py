@@ -5,15 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from foilstudy.base.reference import EXPLICIT_CODE_ENERGIES
-from foilstudy.plot.style import (
-    GREY,
-    PAGE_WIDTH,
-    legend_below,
-    line_style,
-    marker,
-    new_figure,
-    styled,
-)
+from foilstudy.plot import style
 from foilstudy.study.elements.bending import SLENDERNESS
 from foilstudy.study.elements.plan import BASELINE, COARSE_MM, DEFAULT, FROZEN
 from foilstudy.study.elements.summary import variant_row
@@ -32,7 +24,7 @@ _COLOURS = {
 _LEGEND_COLUMNS = 4
 
 
-@styled
+@style.styled
 def draw(study: Results):
     """Six panels: error against t/h for both kinds of task, then error against cost.
 
@@ -40,7 +32,7 @@ def draw(study: Results):
     -------
     matplotlib.figure.Figure
     """
-    figure = new_figure(PAGE_WIDTH, _HEIGHT)
+    figure = style.new_figure(style.PAGE_WIDTH, _HEIGHT)
     axes = figure.subplots(3, 2)
     _against_slenderness(axes[0, 0], study, _ring, SLENDERNESS)
     axes[0, 0].set_title("bending a coarse ring (R = 2.5 h), against theory")
@@ -54,7 +46,7 @@ def draw(study: Results):
         _against_cost(ax, study, key)
         ax.set_title(title)
     _crumple_energy(axes[2, 1], study)
-    legend_below(figure, axes[0, 0], _LEGEND_COLUMNS, fontsize=8.5)
+    style.legend_below(figure, axes[0, 0], _LEGEND_COLUMNS, fontsize=8.5)
     return figure
 
 
@@ -65,8 +57,8 @@ def _look(name: str) -> dict:
     place = family.index(name)
     return {
         "color": _COLOURS[variant.family],
-        "marker": marker(place),
-        "ls": line_style(place),
+        "marker": style.marker(place),
+        "ls": style.line_style(place),
         "ms": 8 if name == DEFAULT else 5,
         "lw": 2.6 if name == DEFAULT else 1.2,
     }
@@ -109,13 +101,13 @@ def _crumple_energy(ax, study: Results) -> None:
         energies = study["crumples"][name]["energies"]
         cost = study["cost"][BASELINE]["relative"][name]
         ax.plot([cost] * len(energies), energies, **_look(name) | {"ls": "none"})
-    for (size, energies), style in zip(EXPLICIT_CODE_ENERGIES.items(), ("-", "--"), strict=True):
+    for (size, energies), look in zip(EXPLICIT_CODE_ENERGIES.items(), ("-", "--"), strict=True):
         for energy in energies:
             label = f"QEPH, this project, {size:g} mm"
-            ax.axhline(energy, color="#8172b3", lw=1.0, ls=style, label=label)
-    for (case, record), style in zip(study["fine"].items(), ("--", "-"), strict=True):
+            ax.axhline(energy, color="#8172b3", lw=1.0, ls=look, label=label)
+    for (case, record), look in zip(study["fine"].items(), ("--", "-"), strict=True):
         energy = np.nanmean(record["energies"])
-        ax.axhline(energy, color=GREY, lw=1.6, ls=style, label=f"default, {case.size_mm:g} mm")
+        ax.axhline(energy, color=style.GREY, lw=1.6, ls=look, label=f"default, {case.size_mm:g} mm")
     handles, labels = ax.get_legend_handles_labels()
     unique = dict(zip(labels, handles, strict=True))
     ax.legend(unique.values(), unique.keys(), fontsize=8, loc="upper left")
