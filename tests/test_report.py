@@ -48,12 +48,10 @@ from foilstudy.present.report.viewer import (
     pack_shape,
     viewer_data,
 )
-from foilstudy.present.statistics import (
-    powerlaw_table,
-    stiffness_summary,
-    variability_table,
-    write_tables,
-)
+from foilstudy.present.statistics.powerlaw import powerlaw_table
+from foilstudy.present.statistics.summary import stiffness_summary
+from foilstudy.present.statistics.tables import write_tables
+from foilstudy.present.statistics.variability import variability_table
 
 PIXEL = base64.b64decode(
     "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAQAAAC1HAwCAAAAC0lEQVR42mNk+A8AAQUBAScY42YAAAAASUVORK5CYII="

@@ -8,8 +8,8 @@ import numpy as np
 
 from foilstudy.base.reference import published
 from foilstudy.plot import style
-from foilstudy.present.statistics import SIMULATED
 from foilstudy.present.statistics.cells import measured
+from foilstudy.present.statistics.powerlaw import SIMULATED
 
 _DARK, _LIGHT = style.ordered_colours(2)
 _BOTTOM = 0.045

@@ -6,7 +6,8 @@ import numpy as np
 
 from foilstudy.base.reference import published
 from foilstudy.plot import style
-from foilstudy.present.statistics import simulated_law, stiffness_summary
+from foilstudy.present.statistics.powerlaw import simulated_law
+from foilstudy.present.statistics.summary import stiffness_summary
 
 _MINE, _LIMIT = style.ordered_colours(5)[1:4:2]
 _LEGEND = (

@@ -8,7 +8,8 @@ from matplotlib.colors import LogNorm
 from matplotlib.ticker import LogLocator
 
 from foilstudy.plot import style
-from foilstudy.present.statistics import simulated_law, stiffness_summary
+from foilstudy.present.statistics.powerlaw import simulated_law
+from foilstudy.present.statistics.summary import stiffness_summary
 
 _COLOUR_MAP = "cividis"
 _STEPS_PER_DECADE = 4

@@ -5,7 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from foilstudy.plot import style
-from foilstudy.present.statistics import fit_variability, plain_scatter, variability_table
+from foilstudy.present.statistics.variability import (
+    fit_variability,
+    plain_scatter,
+    variability_table,
+)
 
 
 @style.styled

@@ -22,7 +22,7 @@ from foilstudy.present.report.numerals import (
     stiffness,
 )
 from foilstudy.present.report.spread import Spread
-from foilstudy.present.statistics import fit_variability, plain_scatter
+from foilstudy.present.statistics.variability import fit_variability, plain_scatter
 
 
 def stiffness_findings(summary: pd.DataFrame) -> list[str]:

@@ -12,8 +12,8 @@ from foilstudy.base.reference import published
 from foilstudy.present.report.laws import DirectionLaws
 from foilstudy.present.report.numerals import fixed, nominal, number, number_range, percent, plural
 from foilstudy.present.report.spread import Spread, by_direction, by_thickness
-from foilstudy.present.statistics import SIMULATED
 from foilstudy.present.statistics.cells import measured
+from foilstudy.present.statistics.powerlaw import SIMULATED
 
 _FREE, _STRESSED = SIMULATED["simulation"], SIMULATED["simulation pre-stressed"]
 _AGAIN = SIMULATED["simulation pre-stressed refined"]
