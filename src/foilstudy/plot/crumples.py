@@ -25,15 +25,7 @@ _TOLD = {
 
 @dataclass(frozen=True)
 class RecordedCrumple:
-    """One realisation on disk.
-
-    Attributes
-    ----------
-    path : Path
-    thickness_um, overlength_percent, reference_height_mm : float
-    seed : int
-    status, message : str
-    """
+    """One realisation on disk."""
 
     path: Path
     thickness_um: float

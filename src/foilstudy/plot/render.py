@@ -68,7 +68,6 @@ def render(shape: Surface, view: View) -> Picture:
     Parameters
     ----------
     shape : Surface
-    view : View
     """
     pixel = view.pixel_mm * 1e-3 / _SUPERSAMPLING
     points = _dense_points(shape.control_points, 1.5 * view.pixel_mm * 1e-3)

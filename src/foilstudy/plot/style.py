@@ -66,7 +66,6 @@ def panel_grid(rows: int, columns: int, cell, margin, **shared):
 
     Parameters
     ----------
-    rows, columns : int
     cell, margin : tuple of float
         Width and height of a panel, and what the figure has beyond its panels, inches.
     shared

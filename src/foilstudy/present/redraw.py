@@ -41,10 +41,6 @@ def redraw(results: str | Path) -> Redrawn:
         modes need the records of all its realisations, ``realisations/*/*/*/crumple.nc`` and
         ``response.nc`` beside them.
 
-    Returns
-    -------
-    Redrawn
-
     Raises
     ------
     ValueError

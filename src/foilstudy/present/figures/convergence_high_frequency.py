@@ -19,12 +19,7 @@ _DIRECTION_STYLES = (("-", "0.1"), ((0, (4, 1.5)), "0.45"))
 
 @style.styled
 def draw(cube):
-    """Draw a row per direction and one of the criterion; one column per thickness.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset
-    """
+    """Draw a row per direction and one of the criterion; one column per thickness."""
     directions = list(map(str, cube["direction"].values))
     thicknesses = cube["thickness"].to_numpy()
     figure, axes = style.panel_grid(

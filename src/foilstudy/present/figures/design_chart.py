@@ -22,12 +22,7 @@ _COLUMNS_WITH_WORST = 9
 
 @style.styled
 def draw(cube):
-    """Draw one panel per direction (row) and mount (column), one cell per configuration.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset
-    """
+    """Draw one panel per direction (row) and mount (column), one cell per configuration."""
     table = isolation_table(cube)
     directions = list(map(str, cube["direction"].values))
     rows = cube.sizes["thickness"]

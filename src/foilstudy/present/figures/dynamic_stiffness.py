@@ -15,7 +15,6 @@ def draw(cube, definition: str):
 
     Parameters
     ----------
-    cube : xarray.Dataset
     definition
         ``transfer``, ``driving`` or ``relative``.
     """

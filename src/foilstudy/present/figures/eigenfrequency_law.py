@@ -12,12 +12,7 @@ from foilstudy.present.statistics.eigenfrequency import fit_eigenfrequency_law
 
 @style.styled
 def draw(cube):
-    """Draw the law of every thickness, beside the published exponent where there is one.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset
-    """
+    """Draw the law of every thickness, beside the published exponent where there is one."""
     data = samples(cube, "first_eigenfrequency")
     thicknesses = cube["thickness"].to_numpy()
     heights = cube["reference_height"].to_numpy()

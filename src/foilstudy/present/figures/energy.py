@@ -12,12 +12,7 @@ _PARTS = {"bending": ("0.35", ""), "membrane": ("0.65", ""), "stabilisation": ("
 
 @style.styled
 def draw(cube):
-    """Draw one panel per thickness, one bar per overlength.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset
-    """
+    """Draw one panel per thickness, one bar per overlength."""
     usable = cube["status"].isin(USABLE)
     parts = {
         name: cube[f"{name}_energy"]

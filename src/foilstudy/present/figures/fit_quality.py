@@ -11,12 +11,7 @@ from foilstudy.present.statistics.powerlaw import NORMAL_95, fit_power_law
 
 @style.styled
 def draw(cube):
-    """Draw observed against fitted stiffness, and their ratio against overlength.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset
-    """
+    """Draw observed against fitted stiffness, and their ratio against overlength."""
     directions = list(map(str, cube["direction"].values))
     figure = style.new_figure(8.2, 6.6)
     axes = figure.subplots(2, len(directions), squeeze=False, height_ratios=[1.25, 1], sharey="row")

@@ -13,12 +13,7 @@ _LINES = ("-", "--", "-.", ":")
 
 @style.styled
 def draw(crumple_paths):
-    """Draw the history of one realisation of the thickest foil at its middle overlength.
-
-    Parameters
-    ----------
-    crumple_paths : paths of crumple.nc files
-    """
+    """Draw the history of one realisation of the thickest foil at its middle overlength."""
     crumples = typical_configuration(catalogue(crumple_paths))
     if not crumples:
         return style.message_figure()

@@ -15,13 +15,7 @@ from foilstudy.plot.modes import RecordedModes, recorded_modes
 
 @style.styled
 def draw(crumple_paths, response_paths):
-    """Draw the MAC of two seeds, for the thinnest and the thickest foil at its middle overlength.
-
-    Parameters
-    ----------
-    crumple_paths : paths of crumple.nc files
-    response_paths : paths of response.nc files
-    """
+    """Draw the MAC of two seeds, for thinnest and thickest foil at its middle overlength."""
     crumples = [crumple for crumple in catalogue(crumple_paths) if crumple.has_shape]
     cases = [
         [(crumple, modes[crumple.path]) for crumple in cell]

@@ -12,12 +12,7 @@ _TICKS = [m * 10.0**e for e in range(-4, 4) for m in (1, 3)]
 
 @style.styled
 def draw(cube):
-    """Draw one panel per direction, one line per thickness.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset
-    """
+    """Draw one panel per direction, one line per thickness."""
     directions = list(map(str, cube["direction"].values))
     percent = 100 * relative_mesh_error(cube)
     figure = style.new_figure(style.PAGE_WIDTH, 4.2)

@@ -19,12 +19,7 @@ _LOWEST_DENSITY = 0.01
 
 @style.styled
 def draw(cube):
-    """Draw one panel per thickness, one curve per overlength.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset
-    """
+    """Draw one panel per thickness, one curve per overlength."""
     if "mode_count" not in cube:
         return style.message_figure("no usable mode counts in this study")
     density, plate, limit = (

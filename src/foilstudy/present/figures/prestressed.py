@@ -44,12 +44,7 @@ _SERIES = (
 
 @style.styled
 def draw(cube):
-    """Draw one row per direction and one panel per thickness.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset
-    """
+    """Draw one row per direction and one panel per thickness."""
     directions = list(map(str, cube["direction"].values))
     thicknesses = cube["thickness"].to_numpy()
     overlengths = cube["overlength"].to_numpy()

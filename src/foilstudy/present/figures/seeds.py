@@ -11,12 +11,7 @@ MOST = 6
 
 @style.styled
 def draw(crumple_paths):
-    """Draw up to six realisations of the thickest foil at its middle overlength side by side.
-
-    Parameters
-    ----------
-    crumple_paths : paths of crumple.nc files
-    """
+    """Draw up to six realisations of the thickest foil at its middle overlength side by side."""
     crumples = typical_configuration(catalogue(crumple_paths))[:MOST]
     if not crumples:
         return style.message_figure()

@@ -28,10 +28,6 @@ def draw_grid(crumples, column_titles=None, row_titles=None, captions=None):
     column_titles, row_titles : lists of str, optional
     captions : list of lists of str, optional
         Written under each shape.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
     """
     rows, columns = len(crumples), max(map(len, crumples), default=0)
     panel_width = min(_LARGEST_PANEL, (PAGE_WIDTH - _ROW_TITLE_WIDTH) / columns)

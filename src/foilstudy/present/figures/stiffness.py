@@ -26,7 +26,6 @@ def draw(cube, direction: str):
 
     Parameters
     ----------
-    cube : xarray.Dataset
     direction
         ``axial`` or ``radial``.
     """

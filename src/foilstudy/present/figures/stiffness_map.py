@@ -17,12 +17,7 @@ _STEPS_PER_DECADE = 4
 
 @style.styled
 def draw(cube):
-    """Draw one map per direction with a common colour scale.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset
-    """
+    """Draw one map per direction with a common colour scale."""
     table = stiffness_summary(cube)
     directions = list(map(str, cube["direction"].values))
     figure = style.new_figure(style.PAGE_WIDTH, 4.3)

@@ -17,12 +17,7 @@ _THICKNESSES_MAX = 4
 
 @style.styled
 def draw(cube):
-    """Draw one panel per direction (row) and mount (column), one band per thickness.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset
-    """
+    """Draw one panel per direction (row) and mount (column), one band per thickness."""
     directions = list(map(str, cube["direction"].values))
     size = (style.PAGE_WIDTH, 3.0), (0, 0.8)
     figure, axes = style.panel_grid(len(directions), len(MOUNTS), *size, sharex=True, sharey=True)

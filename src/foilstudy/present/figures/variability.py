@@ -14,12 +14,7 @@ from foilstudy.present.statistics.variability import (
 
 @style.styled
 def draw(cube):
-    """Draw one panel per direction.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset
-    """
+    """Draw one panel per direction."""
     table = plain_scatter(variability_table(cube))
     directions = list(map(str, cube["direction"].values))
     thicknesses = cube["thickness"].to_numpy()

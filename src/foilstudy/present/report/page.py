@@ -138,9 +138,7 @@ def _content(files: StudyFiles, folder: Path) -> dict:
         "variability_words": findings.variability_findings(variability),
         "dynamic_words": findings.dynamic_findings(cube),
         "overlength_words": modes.overlength_findings(cube),
-        "eigenfrequency_words": findings.eigenfrequency_findings(
-            tables["eigenfrequency_law"], cube
-        ),
+        "eigenfrequency_words": findings.eigenfrequency_findings(eigenfrequency, cube),
         "modal_density_words": modes.modal_density_findings(cube),
         "isolation_words": isolation.isolation_findings(
             tables["isolation"], isolation_options(cube)

@@ -25,8 +25,6 @@ class PrestressRow:
 
     Attributes
     ----------
-    direction : str
-    thickness_um : float
     ratio : Spread
         Over the stress-free stiffness of the same shape on the same mesh.
     cv_free, cv : float
@@ -50,7 +48,6 @@ class RelaxedRow:
 
     Attributes
     ----------
-    thickness_um : float
     n : int
         Realisations that settled again.
     energy : Spread

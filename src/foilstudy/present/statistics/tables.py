@@ -73,7 +73,6 @@ def write_tables(cube, out_dir) -> list[Path]:
 
     Parameters
     ----------
-    cube : xarray.Dataset
     out_dir : folder for the tables, made if missing
 
     Returns

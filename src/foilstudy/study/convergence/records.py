@@ -15,11 +15,8 @@ def ensemble(
 
     Parameters
     ----------
-    study : Results
     key : str
         Of what `crumpling.run` returns.
-    thickness_um : int
-    element : str
     index : int, optional
         Direction, where there is one number for each.
     """

@@ -21,10 +21,8 @@ class Model:
 
     Attributes
     ----------
-    thickness_um, height_mm : int
     refinements : int
         Exact refinements of the mesh of 5 mm that was crumpled.
-    prestressed : bool
     """
 
     thickness_um: int

@@ -26,12 +26,7 @@ _LEGEND_COLUMNS = 4
 
 @style.styled
 def draw(study: Results):
-    """Six panels: error against t/h for both kinds of task, then error against cost.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-    """
+    """Six panels: error against t/h for both kinds of task, then error against cost."""
     figure = style.new_figure(style.PAGE_WIDTH, _HEIGHT)
     axes = figure.subplots(3, 2)
     _against_slenderness(axes[0, 0], study, _ring, SLENDERNESS)

@@ -31,7 +31,6 @@ def crumple(
 
     Parameters
     ----------
-    element : Element
     size_mm, thickness_um : float
         Of the elements and of the foil.
     seed : int

@@ -51,8 +51,6 @@ def frozen_errors(variant: Variant, case: Frozen, frozen: dict) -> tuple[float, 
 
     Parameters
     ----------
-    variant : Variant
-    case : Frozen
     frozen : dict
         What `frozen_shape` has returned; the mean of both referees counts as exact.
     """

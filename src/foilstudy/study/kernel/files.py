@@ -26,7 +26,6 @@ def measure(
 
     Parameters
     ----------
-    study : Study
     part, case : str
         Names.
     path : path

@@ -54,7 +54,6 @@ class Lazy:
 
     Attributes
     ----------
-    place : str
     arguments : tuple
         Further arguments, behind those of the call.
     """
@@ -77,12 +76,9 @@ class Record:
 
     Attributes
     ----------
-    part : str
-    case : Case
     result : dict or list
         As measured; lists of numbers come back as arrays, numbers that were not finite as None,
         as NaN within arrays.
-    cost : Cost
     """
 
     part: str
@@ -113,7 +109,6 @@ class Part:
     ----------
     name : str
         Also of the folder of the records.
-    cases : tuple of Case
     measure : callable
         ``measure(case)`` returns a dict, list or dataclass of numbers and text. With `needs`,
         ``measure(case, PART={case: Record})`` for every part that is needed.

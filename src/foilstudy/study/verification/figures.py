@@ -40,10 +40,6 @@ def draw(benchmarks: Sequence[Benchmark]):
     ----------
     benchmarks : sequence of Benchmark
         The same one, an element each; curves and shapes are drawn of the first.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
     """
     plot, pictures = benchmarks[0].plot, benchmarks[0].pictures
     across = min(len(pictures), _PICTURES_PER_ROW)

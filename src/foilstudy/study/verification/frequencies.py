@@ -131,7 +131,6 @@ def cylinder_frequencies(
 
     Parameters
     ----------
-    candidate : Candidate
     edges : str
         ``clamped``, ``diaphragm`` or ``free``.
     cases : sequence of CylinderCase, optional

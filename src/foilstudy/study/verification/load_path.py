@@ -29,7 +29,6 @@ class Probe:
 
     Attributes
     ----------
-    name : str
     at : tuple of float
         Place around and along, as shares of the patch.
     direction : tuple of float
@@ -81,15 +80,12 @@ class NonlinearCase:
 
     Attributes
     ----------
-    name, title : str
     side : str
         Along what the elements are counted.
-    meshes : tuple of int
     build : callable
         From the element under test and a number of elements to the sheet under its full load.
     factors : tuple of float
         Load factors, ascending.
-    probes : tuple of Probe
     """
 
     name: str
@@ -108,7 +104,6 @@ class NonlinearCase:
 
         Parameters
         ----------
-        candidate : Candidate
         meshes : tuple of int, optional
             Other meshes than those of the case; each the double of the one before.
 

@@ -47,12 +47,7 @@ class Trial:
 
 
 def run(trial: Trial):
-    """Compute one benchmark with one element.
-
-    Returns
-    -------
-    records.Benchmark
-    """
+    """Compute one benchmark with one element."""
     from foilstudy.study.verification.candidates import CANDIDATES
 
     return BENCHMARKS[trial.benchmark](CANDIDATES[trial.element])

@@ -30,7 +30,6 @@ class Checked:
     ----------
     name : str
         What it is, in words: ``centre deflection``.
-    unit : str
     reference : float
         Value of theory or publication.
     source : str
@@ -144,10 +143,8 @@ class Curve:
 
     Attributes
     ----------
-    label : str
     x, y : tuple of float
         Computed points.
-    published_x, published_y : tuple of float
     """
 
     label: str
@@ -172,7 +169,6 @@ class Picture:
 
     Attributes
     ----------
-    title : str
     points : nested list of float, shape (3, rows, columns)
         As drawn: displacements already scaled, the seam of a closed sheet on both sides.
     colour : nested list of float, shape (rows, columns)
@@ -211,9 +207,6 @@ class Benchmark:
         One line for headings.
     element : str
         Element under test.
-    quantities : tuple of Checked
-    plot : Plot or None
-    pictures : tuple of Picture
     """
 
     name: str

@@ -53,7 +53,6 @@ class ModeCell:
 
     Attributes
     ----------
-    cylinder : Cylinder
     m : int
         Half waves along the cylinder.
     n : int

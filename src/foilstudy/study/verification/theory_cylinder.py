@@ -74,10 +74,8 @@ def frequencies(
 
     Parameters
     ----------
-    cylinder : Cylinder
     edges : tuple of int
         `CLAMPED`, `DIAPHRAGM` or `FREE`, both alike.
-    n : int
     count : int
         How many; rigid motions count.
 
