@@ -11,11 +11,12 @@ from foilstudy.base.files import read_json, write_json
 from foilstudy.base.tables import csv_text
 from foilstudy.model.mesh_size import element_size_for, expected_energy_error
 from foilstudy.plot.save import save
-from foilstudy.study.convergence import STUDY, crumpling, plan, stops, tables
+from foilstudy.study.convergence import crumpling, plan, stops, tables
 from foilstudy.study.convergence.analysis import fit, means, slope
+from foilstudy.study.convergence.plan import STUDY
 from foilstudy.study.convergence.records import ensemble as read_ensemble
-from foilstudy.study.kernel import Record, case_name
 from foilstudy.study.kernel.files import read_records, write_record
+from foilstudy.study.kernel.plan import Record, case_name
 from foilstudy.study.published import THICKNESSES_UM, CrumpleCase
 
 COARSE = CrumpleCase("corner", 500, 150, 12.0, 0)

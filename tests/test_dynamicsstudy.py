@@ -9,8 +9,8 @@ from foilstudy.model.shell.elements.corner import Corner
 from foilstudy.pipeline.shape import Shape
 from foilstudy.plot.save import save
 from foilstudy.study.dynamics import measure, plan, records, tables
-from foilstudy.study.kernel import Record, case_name
 from foilstudy.study.kernel.files import read_records, write_record
+from foilstudy.study.kernel.plan import Record, case_name
 
 
 @pytest.fixture(scope="module")

@@ -13,15 +13,15 @@ from foilstudy.model.shell.elements.one_point import OnePoint
 from foilstudy.pipeline.method import Mesh
 from foilstudy.pipeline.shape import Shape
 from foilstudy.pipeline.static import stress_free_stiffness
-from foilstudy.study.elements import STUDY, plan, summary
+from foilstudy.study.elements import plan, summary
 from foilstudy.study.elements.bending import ring_error
 from foilstudy.study.elements.chart import draw
 from foilstudy.study.elements.frozen import frozen_errors
-from foilstudy.study.elements.plan import BASELINE, COARSE_MM, DEFAULT, FROZEN
+from foilstudy.study.elements.plan import BASELINE, COARSE_MM, DEFAULT, FROZEN, STUDY
 from foilstudy.study.elements.summary import variant_row
 from foilstudy.study.elements.variants import VARIANTS
-from foilstudy.study.kernel import Record, case_name
 from foilstudy.study.kernel.files import read_records, write_record
+from foilstudy.study.kernel.plan import Record, case_name
 from foilstudy.study.published import foil
 
 

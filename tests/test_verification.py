@@ -10,8 +10,8 @@ import pytest
 
 from foilstudy.base.costs import Cost
 from foilstudy.base.files import read_json
-from foilstudy.study.kernel import Record
 from foilstudy.study.kernel.files import read_record, write_record
+from foilstudy.study.kernel.plan import Record
 from foilstudy.study.verification.candidates import CANDIDATES
 from foilstudy.study.verification.figures import draw
 from foilstudy.study.verification.plan import BENCHMARKS, ELEMENT_NAMES, STUDY

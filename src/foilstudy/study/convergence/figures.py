@@ -9,7 +9,7 @@ from foilstudy.plot import style
 from foilstudy.study.convergence import plan
 from foilstudy.study.convergence.analysis import fit, means, slope
 from foilstudy.study.convergence.records import ensemble
-from foilstudy.study.kernel import Results
+from foilstudy.study.kernel.plan import Results
 from foilstudy.study.published import HEIGHT_MM, THICKNESSES_UM
 
 _ELEMENTS = {"corner": "corner (default)", "one_point": "one point"}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from foilstudy.study.kernel import Lazy, Part, Study, results
+from foilstudy.study.kernel.plan import Lazy, Part, Study, results
 from foilstudy.study.published import HEIGHT_MM, THICKNESSES_UM, CrumpleCase
 
 SIZES_MM = (7.0, 5.0, 4.0, 2.5, 1.25)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from foilstudy.study.kernel import Results
+from foilstudy.study.kernel.plan import Results
 from foilstudy.study.published import HEIGHT_MM
 
 

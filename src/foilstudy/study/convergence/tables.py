@@ -11,7 +11,7 @@ from foilstudy.base.tables import markdown_table
 from foilstudy.study.convergence import plan
 from foilstudy.study.convergence.analysis import fit, means, slope
 from foilstudy.study.convergence.records import ensemble
-from foilstudy.study.kernel import Results
+from foilstudy.study.kernel.plan import Results
 from foilstudy.study.published import HEIGHT_MM, THICKNESSES_UM
 
 _COLUMNS = (

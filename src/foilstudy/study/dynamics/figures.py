@@ -9,7 +9,7 @@ from foilstudy.plot.style import GREY, PAGE_WIDTH, decade_ticks, new_figure, sty
 from foilstudy.study.dynamics import plan
 from foilstudy.study.dynamics.measure import mode_correlation
 from foilstudy.study.dynamics.records import METHODS, succeeded
-from foilstudy.study.kernel import Results
+from foilstudy.study.kernel.plan import Results
 from foilstudy.study.published import HEIGHT_MM, THICKNESSES_UM
 
 _COLOURS = dict(zip(METHODS, ("0.6", "#4c72b0", "#c44e52", "#222222"), strict=True))

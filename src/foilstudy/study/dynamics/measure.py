@@ -41,7 +41,7 @@ from foilstudy.study.dynamics.plan import (
     TOLERANCES,
     Model,
 )
-from foilstudy.study.kernel import Record
+from foilstudy.study.kernel.plan import Record
 from foilstudy.study.published import CrumpleCase
 
 _FREQUENCIES = np.array([3.0, 10.0, 30.0, 100.0, 200.0, 300.0, 400.0, 500.0, 600.0, 700.0, 800.0])

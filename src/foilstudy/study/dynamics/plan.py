@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from foilstudy.study.kernel import Lazy, Part, Study, results
+from foilstudy.study.kernel.plan import Lazy, Part, Study, results
 from foilstudy.study.published import HEIGHT_MM, THICKNESSES_UM, CrumpleCase
 
 CRUMPLED_MM = 5.0

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from foilstudy.study.dynamics.plan import Model
-from foilstudy.study.kernel import Results
+from foilstudy.study.kernel.plan import Results
 
 METHODS = {
     "guyan": "Guyan",

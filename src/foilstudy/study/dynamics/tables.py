@@ -8,7 +8,7 @@ from foilstudy.base.tables import markdown_table
 from foilstudy.measure.dynamics.response import DEFINITIONS
 from foilstudy.study.dynamics.plan import CHECKED, HIGHEST_HZ, Model
 from foilstudy.study.dynamics.records import METHODS, succeeded
-from foilstudy.study.kernel import Results
+from foilstudy.study.kernel.plan import Results
 
 _DIRECT_FREQUENCIES = 200
 

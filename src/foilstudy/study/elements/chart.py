@@ -10,7 +10,7 @@ from foilstudy.study.elements.bending import SLENDERNESS
 from foilstudy.study.elements.plan import BASELINE, COARSE_MM, DEFAULT, FROZEN
 from foilstudy.study.elements.summary import variant_row
 from foilstudy.study.elements.variants import VARIANTS
-from foilstudy.study.kernel import Results
+from foilstudy.study.kernel.plan import Results
 
 _HEIGHT = 12.5
 _COLOURS = {

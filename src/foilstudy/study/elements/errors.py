@@ -9,7 +9,7 @@ from foilstudy.study.elements.buckled import buckled
 from foilstudy.study.elements.frozen import frozen_errors
 from foilstudy.study.elements.plan import Frozen
 from foilstudy.study.elements.variants import VARIANTS
-from foilstudy.study.kernel import Record
+from foilstudy.study.kernel.plan import Record
 
 
 def variant_errors(name: str, frozen: Mapping[Frozen, Record]) -> dict:

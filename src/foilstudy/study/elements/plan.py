@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from foilstudy.study.elements.variants import VARIANTS
-from foilstudy.study.kernel import Lazy, Part, Study, results
+from foilstudy.study.kernel.plan import Lazy, Part, Study, results
 
 DEFAULT = "corner_1"
 """The element of the default configuration."""

@@ -9,7 +9,7 @@ from foilstudy.base.tables import markdown_table
 from foilstudy.study.elements.bending import SLENDERNESS
 from foilstudy.study.elements.plan import BASELINE, DEFAULT, FINE, FROZEN
 from foilstudy.study.elements.variants import VARIANTS
-from foilstudy.study.kernel import Results
+from foilstudy.study.kernel.plan import Results
 
 
 def variant_row(study: Results, name: str) -> dict[str, float]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from foilstudy.model.shell.elements import sampling
-from foilstudy.study.kernel import Lazy
+from foilstudy.study.kernel.plan import Lazy
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,3 @@
 Each benchmark is a function of the element under test that returns a `records.Benchmark`;
 `plan.BENCHMARKS` names them all.
 """
-
-from foilstudy.study.verification.plan import STUDY
-
-__all__ = ["STUDY"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from foilstudy.study.kernel import Lazy, Part, Study
+from foilstudy.study.kernel.plan import Lazy, Part, Study
 
 _HERE = "foilstudy.study.verification"
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from foilstudy.base.tables import markdown_table
-from foilstudy.study.kernel import Records
+from foilstudy.study.kernel.plan import Records
 from foilstudy.study.verification.records import Benchmark, Checked, Curve, Picture, Plot
 
 
