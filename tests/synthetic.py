@@ -13,10 +13,11 @@ import numpy as np
 import xarray as xr
 
 from foilstudy.base.outcome import USABLE
-from foilstudy.base.record import Quantity, write_record
+from foilstudy.base.record import write_record
 from foilstudy.config.model import overlength_id, thickness_id
 from foilstudy.model.patch import knot_points
 from foilstudy.study.sweep.cube import CONVENTION
+from foilstudy.study.sweep.quantities import QUANTITIES, quantities
 
 DIRECTIONS = ["axial", "radial"]
 DEFINITIONS = ["transfer", "driving", "relative"]
@@ -82,33 +83,27 @@ def make_cube(
     ratio = f / f1[..., None]
     magnitude = static[..., None] * np.abs(1 - ratio**2 + 0.1j * ratio)[..., None, :] ** 0.7
     dynamic = magnitude[:, :, :, None] * np.array([1.0, 1.1, 0.9])[:, None, None] * (0.8 + 0.6j)
-    quantities = {
+    values = {
         **_cell_quantities(t[:, None, None], o[None, :, None], shape),
-        "first_eigenfrequency": ("Hz", CELL, f1),
-        "mode_count": (
-            "1",
-            (*CELL, "frequency"),
-            np.maximum(0, np.floor(MODES_PER_HZ * (f - f1[..., None]) + 1)),
-        ),
+        "first_eigenfrequency": f1,
+        "mode_count": np.maximum(0, np.floor(MODES_PER_HZ * (f - f1[..., None]) + 1)),
         **_stiffnesses(t[:, None, None, None], static, relaxed_again),
-        "dynamic_stiffness": ("N/m", (*CELL, "definition", "direction", "frequency"), dynamic),
+        "dynamic_stiffness": dynamic,
     }
     status, message = np.full(shape, "converged", object), np.full(shape, "", object)
     for cell, (outcome, words) in (verdicts or {}).items():
         status[cell], message[cell] = outcome, words
         if outcome not in USABLE:
-            for _, _, values in quantities.values():
-                values[cell] = np.nan
+            for array in values.values():
+                array[cell] = np.nan
     cylinder = 2.4e3 * t[:, None, None] * np.array([1.0, 0.16]) * (130 / h)[None, :, None]
-    quantities |= {
-        "cylinder_stiffness": ("N/m", ("thickness", "overlength", "direction"), cylinder),
-        "status": ("1", CELL, status),
-        "message": ("1", CELL, message),
-    }
+    dims = ("thickness", "overlength", "direction")
     return xr.Dataset(
         {
-            name: (dims, values, {"units": units, "long_name": name.replace("_", " ")})
-            for name, (units, dims, values) in quantities.items()
+            **{name: _declared(name, array) for name, array in values.items()},
+            "cylinder_stiffness": (dims, cylinder, {"units": "N/m"}),
+            "status": (CELL, status),
+            "message": (CELL, message),
         },
         {
             "thickness": ("thickness", t, {"units": "um"}),
@@ -129,6 +124,13 @@ def make_cube(
     )
 
 
+def _declared(name, values):
+    """Dimensions, values and attributes as in the cube of a study."""
+    known = QUANTITIES[name if name in QUANTITIES else f"{name}_re"]
+    attributes = {"units": known.cube_units or known.units, "long_name": known.words}
+    return (*CELL, *known.dims), values, attributes
+
+
 def _power_law(direction, overlength, thickness):
     alpha, beta, gamma = LAW[direction]
     return np.exp(alpha + beta * np.log(overlength) + gamma * np.log(thickness))
@@ -139,25 +141,24 @@ def _cell_quantities(t, o, shape):
     yield."""
     ones = np.ones(shape)
     energy = 5e-3 * (t / 50) ** 1.5 * o * ones
-    values = {
-        "membrane_energy": ("J", 0.3 * energy),
-        "bending_energy": ("J", 0.6 * energy),
-        "stabilisation_energy": ("J", 0.1 * energy * 50 / t),
-        "equilibrium_residual": ("1", 1e-7 * ones),
-        "negative_eigenvalues": ("1", np.where(t > 400, 2.0, 0.0) * ones),
-        "steps": ("1", 2000 + 1e6 / t * ones),
-        "newton_steps": ("1", 12 * ones),
-        "element_size": ("mm", 5 * ones),
-        "radial_displacement_min": ("mm", -20 * ones),
-        "radial_displacement_max": ("mm", 30.4 * ones),
-        "beyond_yield_share": ("1", np.where(o > 60, 0.2, 0.0) * ones),
-        "self_crossing_share": ("1", 0 * ones),
-        "seconds_crumple": ("s", 3 * ones),
-        "seconds_static": ("s", 0.5 * ones),
-        "seconds_dynamic": ("s", 1.5 * ones),
-        "peak_memory": ("MB", 400 * ones),
+    return {
+        "membrane_energy": 0.3 * energy,
+        "bending_energy": 0.6 * energy,
+        "stabilisation_energy": 0.1 * energy * 50 / t,
+        "equilibrium_residual": 1e-7 * ones,
+        "negative_eigenvalues": np.where(t > 400, 2.0, 0.0) * ones,
+        "steps": 2000 + 1e6 / t * ones,
+        "newton_steps": 12 * ones,
+        "element_size": 5 * ones,
+        "radial_displacement_min": -20 * ones,
+        "radial_displacement_max": 30.4 * ones,
+        "beyond_yield_share": np.where(o > 60, 0.2, 0.0) * ones,
+        "self_crossing_share": 0 * ones,
+        "seconds_crumple": 3 * ones,
+        "seconds_static": 0.5 * ones,
+        "seconds_dynamic": 1.5 * ones,
+        "peak_memory": 400 * ones,
     }
-    return {name: (units, CELL, array) for name, (units, array) in values.items()}
 
 
 def _stiffnesses(t, static, relaxed_again):
@@ -174,7 +175,7 @@ def _stiffnesses(t, static, relaxed_again):
     if relaxed_again:
         values["prestressed_stiffness_converged"] = 0.7 * stressed
         values["prestressed_stiffness_mesh_error"] = 0.3 * stressed
-    return {name: ("N/m", (*CELL, "direction"), array) for name, array in values.items()}
+    return values
 
 
 def write_cube(cube, path):
@@ -216,29 +217,25 @@ def write_crumple(
         "reference_height_mm": float(reference_height_mm),
         "seed": seed,
     }
-    quantities = {}
+    values = {}
     if status in USABLE:
         rng = np.random.default_rng([seed, int(thickness_um), int(reference_height_mm)])
-        quantities = _shape(rng, thickness_um, overlength, reference_height_mm, element_mm)
-        quantities |= _history(overlength, reference_height_mm, thickness_um)
-    write_record(path, quantities, attributes)
+        values = _shape(rng, thickness_um, overlength, reference_height_mm, element_mm)
+        values |= _history(overlength, reference_height_mm, thickness_um)
+    write_record(path, quantities(values), attributes)
     return path
 
 
 def write_response(crumple_path, shapes=None, frequencies=None):
     """Write the response.nc beside a crumple, with mode shapes (mode, 3, rows, columns) or none."""
     path = Path(crumple_path).with_name("response.nc")
-    quantities = {}
+    values = {}
     if shapes is not None:
         known = 50.0 + 10.0 * np.arange(len(shapes)) if frequencies is None else frequencies
         eigenfrequencies = np.full(20, np.nan)
         eigenfrequencies[: len(known)] = known
-        dims = ("shape_mode", "component", "node_row", "node_column")
-        quantities = {
-            "mode_shape": Quantity(shapes.astype("f4"), "m/sqrt(kg m2)", "mode shape", dims),
-            "eigenfrequency": Quantity(eigenfrequencies, "Hz", "eigenfrequency", ("mode",)),
-        }
-    write_record(path, quantities, {"status": "converged", "message": ""})
+        values = {"mode_shape": shapes.astype("f4"), "eigenfrequency": eigenfrequencies}
+    write_record(path, quantities(values), {"status": "converged", "message": ""})
     return path
 
 
@@ -260,12 +257,11 @@ def _shape(rng, thickness_um, overlength, reference_height_mm, element):
     r0 = DIAMETER_MM / 2
     points = np.stack([r * np.cos(T), r * np.sin(T), Z * GAP_HEIGHT_MM]) * 1e-3
     reference = np.stack([r0 * np.cos(T), r0 * np.sin(T), Z * reference_height_mm]) * 1e-3
-    control, node = ("component", "row", "column"), ("component", "node_row", "node_column")
     return {
-        "control_points": Quantity(points, "m", "control points", control),
-        "reference_control_points": Quantity(reference, "m", "reference", control),
-        "surface": Quantity(knot_points(points), "m", "surface", node),
-        "reference_surface": Quantity(knot_points(reference), "m", "reference surface", node),
+        "control_points": points,
+        "reference_control_points": reference,
+        "surface": knot_points(points),
+        "reference_surface": knot_points(reference),
     }
 
 
@@ -276,17 +272,13 @@ def _history(overlength, reference_height_mm, thickness_um):
     height = (reference_height_mm + (GAP_HEIGHT_MM - reference_height_mm) * path) * 1e-3
     energy = (thickness_um / 500) ** 1.5 * 0.05 * overlength * path
     settle = np.where(step > 2000, 0.8 + 0.2 * np.exp(-(step - 2000) / 400), 1.0)
-    columns = {
-        "step": (step, "1"),
-        "height": (height, "m"),
-        "reaction_force": (400 * np.sin(np.pi * path) + 60 * path * settle, "N"),
-        "membrane_energy": (0.35 * energy * settle, "J"),
-        "bending_energy": (0.6 * energy * settle, "J"),
-        "stabilisation_energy": (0.05 * energy * settle, "J"),
-        "kinetic_energy": (1e-2 * energy * np.exp(-np.maximum(step - 1000, 0) / 250), "J"),
-        "residual": (np.where(step > 2000, 10 ** (-(step - 2000) / 700.0), np.nan), "1"),
-    }
     return {
-        f"history_{name}": Quantity(values, units, name.replace("_", " "), ("history",))
-        for name, (values, units) in columns.items()
+        "history_step": step,
+        "history_height": height,
+        "history_reaction_force": 400 * np.sin(np.pi * path) + 60 * path * settle,
+        "history_membrane_energy": 0.35 * energy * settle,
+        "history_bending_energy": 0.6 * energy * settle,
+        "history_stabilisation_energy": 0.05 * energy * settle,
+        "history_kinetic_energy": 1e-2 * energy * np.exp(-np.maximum(step - 1000, 0) / 250),
+        "history_residual": np.where(step > 2000, 10 ** (-(step - 2000) / 700.0), np.nan),
     }

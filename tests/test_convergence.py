@@ -11,13 +11,15 @@ from foilstudy.base.files import read_json, write_json
 from foilstudy.base.tables import csv_text
 from foilstudy.model.mesh_size import element_size_for, expected_energy_error
 from foilstudy.plot.save import save
-from foilstudy.study.convergence import STUDY, crumpling, plan, stops, tables
+from foilstudy.study.convergence import crumpling, plan, stops, tables
 from foilstudy.study.convergence.analysis import fit, means, slope
-from foilstudy.study.convergence.records import Findings
-from foilstudy.study.kernel import Record, case_name
+from foilstudy.study.convergence.plan import STUDY
+from foilstudy.study.convergence.records import ensemble as read_ensemble
 from foilstudy.study.kernel.files import read_records, write_record
+from foilstudy.study.kernel.plan import Record, case_name
+from foilstudy.study.published import THICKNESSES_UM, CrumpleCase
 
-COARSE = plan.Case("corner", 500, 150, 12.0, 0)
+COARSE = CrumpleCase("corner", 500, 150, 12.0, 0)
 SIZES = np.array(plan.SIZES_MM)
 
 
@@ -28,7 +30,7 @@ def test_every_mesh_resolves_the_imperfection_and_begins_with_the_same_foil():
     """The areas of the imperfect foils differ by the error of their fit alone."""
     areas = []
     for size in (7.0, 5.0, 2.5):
-        crumple = crumpling.imperfect(plan.Case("corner", 500, 170, size, 3))
+        crumple = crumpling.imperfect(CrumpleCase("corner", 500, 170, size, 3))
         areas.append(crumple.stressed.section.areas.sum())
     assert np.ptp(areas) < 1e-5 * areas[0]
 
@@ -185,7 +187,7 @@ def synthetic_study(tmp_path_factory):
         write("stops", case, [fake_stop(residual) for residual in plan.STOPS])
     timing = [
         {"thickness_um": t, "size_mm": s, "elements": 1, "seconds_per_step": 1e-2 * s**-2.1}
-        for t in plan.THICKNESSES_UM
+        for t in THICKNESSES_UM
         for s in plan.SIZES_MM
     ]
     write("timing", "steps", timing)
@@ -217,9 +219,8 @@ def test_figures_are_drawn_whole(synthetic_study, tmp_path, name):
 
 def test_a_realisation_that_did_not_converge_is_left_out_of_means(synthetic_study):
     case = plan.crumples()[0]
-    records = dict(synthetic_study.crumples)
+    records = dict(synthetic_study["crumples"])
     records[case] = records[case] | {"status": "not_converged"}
-    changed = Findings(records, {}, {}, [])
     key = ("strain_energy", case.thickness_um)
-    assert len(changed.ensemble(*key)[case.size_mm]) == 2
-    assert len(synthetic_study.ensemble(*key)[case.size_mm]) == 3
+    assert len(read_ensemble({"crumples": records}, *key)[case.size_mm]) == 2
+    assert len(read_ensemble(synthetic_study, *key)[case.size_mm]) == 3

@@ -9,8 +9,8 @@ from foilstudy.model.shell.elements.corner import Corner
 from foilstudy.pipeline.shape import Shape
 from foilstudy.plot.save import save
 from foilstudy.study.dynamics import measure, plan, records, tables
-from foilstudy.study.kernel import Record, case_name
 from foilstudy.study.kernel.files import read_records, write_record
+from foilstudy.study.kernel.plan import Record, case_name
 
 
 @pytest.fixture(scope="module")
@@ -42,20 +42,20 @@ def study(coarse_crumple, tmp_path_factory):
 
 def test_default_reduction_meets_the_truth(study):
     model = plan.Model(500)
-    (row,) = study.rows(model, "rational_krylov")
+    (row,) = records.succeeded(study, model, "rational_krylov")
     assert row.error < 1e-3 and row.estimate < 1e-3 and row.valid_to_hz == 800
-    assert study.checks[model]["error"] < 1e-3
-    (stressed,) = study.rows(plan.Model(500, prestressed=True), "rational_krylov")
+    assert study["checks"][model]["error"] < 1e-3
+    (stressed,) = records.succeeded(study, plan.Model(500, prestressed=True), "rational_krylov")
     assert stressed.error < 1e-3
 
 
 def test_guyan_is_the_worst(study):
-    errors = {row.method: row.error for row in study.rows(plan.Model(500))}
+    errors = {row.method: row.error for row in records.succeeded(study, plan.Model(500))}
     assert max(errors, key=errors.get) == "guyan"
 
 
 def test_modes_of_two_reductions_are_the_same(study):
-    modes = study.charts[plan.Model(500)]["modes"]
+    modes = study["charts"][plan.Model(500)]["modes"]
     matrix = measure.mode_correlation(modes["rational_krylov"], modes["hintz_herting"])
     np.testing.assert_allclose(np.diag(matrix), 1, atol=1e-3)
 
@@ -77,5 +77,4 @@ def test_figures_can_be_drawn(name, study, tmp_path):
 def test_a_failed_reduction_is_left_out():
     model = plan.Model(500)
     chart = {"rows": [{"method": "guyan", "order": 0.0, "failed": "why"}]}
-    other = records.Findings({model: chart}, {})
-    assert other.rows(model) == []
+    assert records.succeeded({"charts": {model: chart}}, model) == []

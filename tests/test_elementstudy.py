@@ -1,34 +1,33 @@
 """The comparison of elements: what it measures, and that its table and chart come of it."""
 
 import csv
-from dataclasses import asdict
 
 import numpy as np
 import pytest
 
 from foilstudy.base.costs import Cost
 from foilstudy.base.tables import csv_text
-from foilstudy.model.patch import Patch, cylinder_control_points
+from foilstudy.model.patch import cylinder_control_points
 from foilstudy.model.shell.elements.corner import Corner
+from foilstudy.model.shell.elements.one_point import OnePoint
+from foilstudy.pipeline.method import Mesh
 from foilstudy.pipeline.shape import Shape
 from foilstudy.pipeline.static import stress_free_stiffness
-from foilstudy.study.elements import STUDY, plan, summary
+from foilstudy.study.elements import plan, summary
 from foilstudy.study.elements.bending import ring_error
 from foilstudy.study.elements.chart import draw
-from foilstudy.study.elements.crumpling import Crumples
-from foilstudy.study.elements.errors import VariantErrors
-from foilstudy.study.elements.frozen import FrozenShape, frozen_errors
-from foilstudy.study.elements.plan import BASELINE, DEFAULT
-from foilstudy.study.elements.scene import COARSE, DIAMETER, REFERENCE_HEIGHT, foil_of
+from foilstudy.study.elements.frozen import frozen_errors
+from foilstudy.study.elements.plan import BASELINE, COARSE_MM, DEFAULT, FROZEN, STUDY
+from foilstudy.study.elements.summary import variant_row
 from foilstudy.study.elements.variants import VARIANTS
-from foilstudy.study.kernel import Record, case_name
 from foilstudy.study.kernel.files import read_records, write_record
+from foilstudy.study.kernel.plan import Record, case_name
+from foilstudy.study.published import foil
 
 
-def test_the_workflow_lists_every_variant():
-    assert plan.VARIANT_NAMES == tuple(VARIANTS)
-    assert {DEFAULT, BASELINE} <= set(plan.VARIANT_NAMES)
+def test_the_default_and_the_baseline_are_those_of_the_package():
     assert VARIANTS[DEFAULT].element == Corner()
+    assert VARIANTS[BASELINE].element == OnePoint()
 
 
 @pytest.mark.parametrize("name", [DEFAULT, "corner_1_bend_4", "cas_1", "staggered_1"])
@@ -49,12 +48,14 @@ def test_the_default_does_not_lock_in_a_thin_ring():
 
 
 def test_errors_of_a_frozen_shape_are_relative_to_the_mean_of_the_referees():
-    patch = Patch.for_cylinder(DIAMETER, REFERENCE_HEIGHT, COARSE)
-    points = cylinder_control_points(patch, DIAMETER)
+    sheet, case = foil(500), FROZEN[2]
+    assert case.thickness_um == 500
+    patch = Mesh(COARSE_MM * 1e-3).patch(sheet)
+    points = cylinder_control_points(patch, sheet.diameter)
     variant = VARIANTS[DEFAULT]
-    own = stress_free_stiffness(Shape(foil_of(500e-6), patch, points, points, variant.element))
-    shape = FrozenShape(500e-6, points, np.array([own, 3 * own]))
-    assert frozen_errors(variant, shape) == pytest.approx((-0.5, -0.5), rel=1e-9)
+    own = stress_free_stiffness(Shape(sheet, patch, points, points, variant.element))
+    frozen = {"points": points, "referees": [list(own), list(3 * own)]}
+    assert frozen_errors(variant, case, frozen) == pytest.approx((-0.5, -0.5), rel=1e-9)
 
 
 @pytest.fixture
@@ -65,31 +66,29 @@ def study(tmp_path):
         record = Record(part, case, result, Cost())
         write_record(STUDY, record, tmp_path / STUDY.part(part).files(case_name(case))[0])
 
-    for k, name in enumerate(plan.VARIANT_NAMES):
+    for k, name in enumerate(VARIANTS):
         error = np.nan if k == 0 else 0.01 * k
-        errors = VariantErrors(
-            {f"{s:g}": error for s in (0.01, 0.02, 0.05, 0.1, 0.2)},
-            error,
-            {str(case.thickness_um): (error, -error) for case in plan.FROZEN},
-            2.0 + error,
-        )
-        write("variants", name, asdict(errors))
+        errors = {
+            "ring": {f"{s:g}": error for s in (0.01, 0.02, 0.05, 0.1, 0.2)},
+            "roll_up": error,
+            "frozen": {str(case.thickness_um): (error, -error) for case in FROZEN},
+            "buckled": 2.0 + error,
+        }
+        write("variants", name, errors)
         energies = (np.nan, np.nan) if k == 0 else (4.0, np.nan)
-        crumples = Crumples(5e-3, energies, (3000, 7000), ("converged", "not_converged"))
-        write("crumples", name, asdict(crumples))
+        write("crumples", name, {"energies": energies, "steps": (3000, 7000)})
     write("buckled", DEFAULT, {"energies": [3.0, 2.0]})
     for case in plan.FINE:
-        fine = Crumples(case.size_mm, (3.2,), (9000,), ("converged",))
-        write("fine", case, asdict(fine))
-    for case in plan.FROZEN:
+        write("fine", case, {"energies": (3.2,), "steps": (9000,)})
+    for case in FROZEN:
         write("frozen", case, {"points": np.zeros((3, 2, 2))})
-    costs = {"relative": dict.fromkeys(plan.VARIANT_NAMES, 1.5), "nanoseconds": {DEFAULT: 60.0}}
+    costs = {"relative": dict.fromkeys(VARIANTS, 1.5), "nanoseconds": {DEFAULT: 60.0}}
     write("cost", BASELINE, costs)
     return STUDY.findings(read_records(STUDY, tmp_path))
 
 
 def test_numbers_of_a_variant_come_through(study):
-    row = study.row("gauss_2")
+    row = variant_row(study, "gauss_2")
     assert row["ring_0.1"] == 0.04
     assert (row["axial_500um"], row["radial_500um"]) == (0.04, -0.04)
     assert row["buckled"] == pytest.approx(0.02)
@@ -100,7 +99,7 @@ def test_numbers_of_a_variant_come_through(study):
 
 def test_what_found_no_answer_is_empty_in_the_tables_and_missing_in_the_chart(study):
     rows = list(csv.DictReader(csv_text(summary.rows(study)).splitlines()))
-    assert [row["variant"] for row in rows] == list(plan.VARIANT_NAMES)
+    assert [row["variant"] for row in rows] == list(VARIANTS)
     assert rows[0]["roll_up"] == "" and rows[4]["roll_up"] == "0.04"
     lines = summary.page(study).splitlines()
     assert lines[2].startswith("| one point, χ = 0.01 | 1.50 | - | - |")

@@ -14,7 +14,7 @@ from synthetic import FAILED, MODES_PER_HZ, make_cube, write_crumple, write_cube
 
 from foilstudy.model.patch import Patch, cylinder_control_points
 from foilstudy.plot.crumples import (
-    Shape,
+    Surface,
     catalogue,
     read_history,
     read_shape,
@@ -347,7 +347,7 @@ def test_catalogue_is_sorted_and_knows_failures(crumple_paths):
 
 def test_picture_of_a_straight_cylinder_has_its_true_outline():
     patch = Patch.for_cylinder(0.2, 0.13, 5e-3)
-    picture = render(Shape(cylinder_control_points(patch, 0.2), 0.1), View(elevation_deg=0.0))
+    picture = render(Surface(cylinder_control_points(patch, 0.2), 0.1), View(elevation_deg=0.0))
     solid = picture.rgba[..., 3] > 0.5
     left, right, bottom, top = picture.extent_mm
     pixel = (right - left) / solid.shape[1]
@@ -365,7 +365,7 @@ def test_picture_colours_outward_red_and_inward_blue(crumple_paths):
     shape = read_shape(catalogue(crumple_paths)[1])
     for factor, channel in ((1.1, 0), (0.9, 2)):
         points = shape.control_points * np.array([factor, factor, 1.0])[:, None, None]
-        picture = render(Shape(points, shape.radius), View(pixel_mm=2.0))
+        picture = render(Surface(points, shape.radius), View(pixel_mm=2.0))
         mean = picture.rgba[picture.rgba[..., 3] > 0.9].mean(axis=0)
         assert np.argmax(mean[:3]) == channel
 

@@ -14,8 +14,8 @@ import pytest
 from foilstudy.base.costs import Cost, measured, peak_memory_mb
 from foilstudy.base.errors import ConfigError
 from foilstudy.base.tables import csv_text, markdown_table
-from foilstudy.study.kernel import Lazy, Part, Record, Study, case_name
 from foilstudy.study.kernel.files import measure, present, problems, read_record, read_records
+from foilstudy.study.kernel.plan import Lazy, Part, Record, Study, case_name
 from foilstudy.study.registry import STUDIES, refuse_reserved_name
 
 ROOT = Path(__file__).parents[1]

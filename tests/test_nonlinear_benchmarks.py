@@ -9,10 +9,7 @@ import numpy as np
 import pytest
 
 from foilstudy.study.verification.candidates import CANDIDATES
-from foilstudy.study.verification.load_path import run
 from foilstudy.study.verification.nonlinear import (
-    BENCHMARKS,
-    CASES,
     END_SHEAR,
     OPEN_CYLINDER,
     PINCHED_CYLINDER,
@@ -31,7 +28,13 @@ def quick(case, candidate, factors, meshes):
     probes = tuple(
         replace(probe, published=tuple(probe.published[k] for k in places)) for probe in case.probes
     )
-    return run(replace(case, factors=factors, probes=probes), candidate, meshes).quantities
+    return replace(case, factors=factors, probes=probes).run(candidate, meshes).quantities
+
+
+def limit(quantity):
+    """Value extrapolated to element size zero from the last two meshes, by the order of theory."""
+    ratio = (quantity.meshes[-1] / quantity.meshes[-2]) ** quantity.expected_rate
+    return quantity.values[-1] + (quantity.values[-1] - quantity.values[-2]) / (ratio - 1)
 
 
 @both_elements
@@ -48,7 +51,7 @@ def test_an_end_moment_rolls_a_cantilever_into_a_circle():
         # second order: a quarter of the error on half the element size
         assert error[1] / error[0] == pytest.approx(0.25, abs=0.05)
         # what is left is the strain of the middle surface, some t^2 / (12 R^2)
-        assert quantity.limit == pytest.approx(quantity.reference, rel=2e-3)
+        assert limit(quantity) == pytest.approx(quantity.reference, rel=2e-3)
 
 
 @both_elements
@@ -70,7 +73,7 @@ def test_a_slit_annulus_is_lifted_as_published():
     """Both corners approach from above, with the order of the mesh."""
     for quantity in quick(SLIT_ANNULUS, ONE_POINT, (0.1, 0.5, 1.0), (16, 32)):
         assert 0 < quantity.errors[1] < quantity.errors[0] / 3
-        assert quantity.limit == pytest.approx(quantity.reference, rel=0.02)
+        assert limit(quantity) == pytest.approx(quantity.reference, rel=0.02)
 
 
 def test_a_slit_annulus_of_corner_elements_approaches_from_below_with_first_order():
@@ -81,7 +84,6 @@ def test_a_slit_annulus_of_corner_elements_approaches_from_below_with_first_orde
 
 
 def test_every_published_table_has_a_value_for_every_load():
-    for case in CASES:
+    for case in (END_SHEAR, ROLL_UP, OPEN_CYLINDER, PINCHED_CYLINDER, SLIT_ANNULUS):
         assert all(len(probe.published) == len(case.factors) for probe in case.probes)
         assert all(set(probe.compared) <= set(case.factors) for probe in case.probes)
-    assert set(BENCHMARKS) == {case.name for case in CASES}

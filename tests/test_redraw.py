@@ -15,7 +15,7 @@ from foilstudy import open_cube
 from foilstudy.present.figures import FIGURES
 from foilstudy.present.files import StudyFiles
 from foilstudy.present.redraw import redraw
-from foilstudy.present.statistics import TABLES
+from foilstudy.present.statistics.tables import TABLES
 
 THESIS = Path(__file__).parents[1] / "results" / "thesis"
 OF_RECORDS = [name for name, figure in FIGURES.items() if figure.needs != ("cube",)]

@@ -13,6 +13,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+from scipy.interpolate import RegularGridInterpolator
 from synthetic import (
     CONFIG,
     make_cube,
@@ -43,18 +44,14 @@ from foilstudy.present.report.viewer import (
     MODE_NODES_MAX,
     NODES_MAX,
     choose_shapes,
-    decode_mode,
-    decode_points,
     pack_mode,
     pack_shape,
     viewer_data,
 )
-from foilstudy.present.statistics import (
-    powerlaw_table,
-    stiffness_summary,
-    variability_table,
-    write_tables,
-)
+from foilstudy.present.statistics.powerlaw import powerlaw_table
+from foilstudy.present.statistics.summary import stiffness_summary
+from foilstudy.present.statistics.tables import write_tables
+from foilstudy.present.statistics.variability import variability_table
 
 PIXEL = base64.b64decode(
     "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAQAAAC1HAwCAAAAC0lEQVR42mNk+A8AAQUBAScY42YAAAAASUVORK5CYII="
@@ -89,7 +86,21 @@ def words(page):
 
 
 def unpack(packed, name):
-    return decode_points(packed[name], packed["scale"], packed["rows"], packed["columns"])
+    """Coordinates of a packed shape in m, shape (3, rows, columns)."""
+    quanta = np.frombuffer(base64.b64decode(packed[name], validate=True), dtype="<i2")
+    return (
+        np.moveaxis(quanta.reshape(packed["rows"], packed["columns"], 3), -1, 0) * packed["scale"]
+    )
+
+
+def decode_mode(packed, rows, columns):
+    """A packed mode at the nodes of its shape, the largest displacement being 1."""
+    quanta = np.frombuffer(base64.b64decode(packed["displacement"], validate=True), np.int8)
+    grid = quanta.reshape(packed["rows"], packed["columns"], 3) / 127
+    closed = np.concatenate([grid, grid[:, :1]], axis=1)
+    axes = [np.linspace(0, 1, size) for size in closed.shape[:2]]
+    at = np.meshgrid(np.linspace(0, 1, rows), np.arange(columns) / columns, indexing="ij")
+    return np.moveaxis(RegularGridInterpolator(axes, closed)(np.stack(at, axis=-1)), -1, 0)
 
 
 def first_screen(page):

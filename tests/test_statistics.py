@@ -9,8 +9,24 @@ from scipy import stats
 from synthetic import EXPONENT, FAILED, LAW, make_cube
 
 from foilstudy.base.reference import published
-from foilstudy.present import statistics
 from foilstudy.present.statistics.cells import samples
+from foilstudy.present.statistics.eigenfrequency import eigenfrequency_table
+from foilstudy.present.statistics.powerlaw import (
+    SIMULATED,
+    fit_power_law,
+    powerlaw_table,
+    simulated_law,
+    sources_in,
+)
+from foilstudy.present.statistics.regression import fit_linear
+from foilstudy.present.statistics.summary import stiffness_summary
+from foilstudy.present.statistics.tables import TABLES, write_tables
+from foilstudy.present.statistics.variability import (
+    coefficient_of_variation,
+    coefficient_of_variation_interval,
+    variability_law_table,
+    variability_table,
+)
 
 KEYS = {"alpha": "constant", "beta": "overlength", "gamma": "thickness"}
 
@@ -21,7 +37,7 @@ def noisy_cube(**kwargs):
 
 @pytest.mark.parametrize("direction", ["axial", "radial"])
 def test_power_law_of_exact_data_is_recovered(direction):
-    fitted = statistics.simulated_law(make_cube(), direction)
+    fitted = simulated_law(make_cube(), direction)
     law = fitted.law
     np.testing.assert_allclose((law.alpha, law.beta, law.gamma), LAW[direction], rtol=1e-10)
     assert fitted.fit.n == 120
@@ -32,7 +48,7 @@ def test_power_law_of_exact_data_is_recovered(direction):
 
 def test_power_law_matches_the_normal_equations():
     data = samples(noisy_cube(), "static_stiffness", direction="axial")
-    law = statistics.fit_power_law(data)
+    law = fit_power_law(data)
     X = np.column_stack(
         [np.ones(data.value.size), np.log(data.overlength_percent), np.log(data.thickness_um)]
     )
@@ -55,22 +71,20 @@ def test_power_law_matches_the_normal_equations():
 def test_residual_checks_tell_uneven_and_skewed_scatter_from_plain_scatter():
     x = np.linspace(0, 1, 200)
     noise = np.random.default_rng(0).standard_normal(x.size)
-    plain = statistics.fit_linear(2 * x + noise, {"x": x})
+    plain = fit_linear(2 * x + noise, {"x": x})
     assert plain.heteroscedasticity_p() > 0.05 and plain.normality_p() > 0.05
-    uneven = statistics.fit_linear(2 * x + x * noise, {"x": x})
+    uneven = fit_linear(2 * x + x * noise, {"x": x})
     assert uneven.heteroscedasticity_p() < 1e-6
-    skewed = statistics.fit_linear(2 * x + np.exp(noise), {"x": x})
+    skewed = fit_linear(2 * x + np.exp(noise), {"x": x})
     assert skewed.normality_p() < 1e-6
 
 
 def test_lack_of_fit_tells_a_bent_law_from_a_straight_one():
-    straight = statistics.simulated_law(noisy_cube(), "axial")
+    straight = simulated_law(noisy_cube(), "axial")
     assert straight.fit.lack_of_fit_p(straight.configuration) > 0.05
     cube = noisy_cube()
     bend = np.exp(0.2 * np.log(cube["overlength"] / 30) ** 2)
-    bent = statistics.simulated_law(
-        cube.assign(static_stiffness=cube["static_stiffness"] * bend), "axial"
-    )
+    bent = simulated_law(cube.assign(static_stiffness=cube["static_stiffness"] * bend), "axial")
     assert bent.fit.lack_of_fit_p(bent.configuration) < 1e-6
 
 
@@ -79,7 +93,7 @@ def test_interval_covers_the_truth_at_its_nominal_rate():
     x = np.linspace(0, 1, 12)
     covered = 0
     for _ in range(400):
-        fit = statistics.fit_linear(1 + 2 * x + rng.standard_normal(12), {"x": x})
+        fit = fit_linear(1 + 2 * x + rng.standard_normal(12), {"x": x})
         covered += fit.low["x"] < 2 < fit.high["x"]
     assert 0.91 < covered / 400 < 0.985
 
@@ -88,7 +102,7 @@ def test_prediction_band_matches_the_textbook_formula():
     rng = np.random.default_rng(5)
     x = rng.uniform(0, 10, 20)
     y = 3 - 0.5 * x + 0.2 * rng.standard_normal(20)
-    fit = statistics.fit_linear(y, {"x": x})
+    fit = fit_linear(y, {"x": x})
     at = np.array([0.0, 4.0, 12.0])
     mean, low, high = fit.predict({"x": at})
     s = np.sqrt(np.sum(fit.residuals**2) / 18)
@@ -109,7 +123,7 @@ def test_failed_cells_do_not_enter_and_not_converged_ones_do():
             (1, 1, 1): ("not_converged", "steps used up"),
         }
     )
-    law = statistics.simulated_law(cube, "axial")
+    law = simulated_law(cube, "axial")
     assert law.fit.n == 118
     assert law.law.beta == pytest.approx(LAW["axial"][1])
 
@@ -118,7 +132,7 @@ def test_values_that_have_no_logarithm_do_not_enter():
     cube = make_cube()
     cube["static_stiffness"][0, 0, 0, 0] = -5.0
     cube["static_stiffness"][1, 1, 1, 0] = np.inf
-    assert statistics.simulated_law(cube, "axial").fit.n == 118
+    assert simulated_law(cube, "axial").fit.n == 118
 
 
 @pytest.mark.parametrize(
@@ -129,7 +143,7 @@ def test_values_that_have_no_logarithm_do_not_enter():
     ],
 )
 def test_degenerate_sweep_drops_its_regressor(kwargs, lost, note):
-    row = statistics.powerlaw_table(noisy_cube(**kwargs)).iloc[0]
+    row = powerlaw_table(noisy_cube(**kwargs)).iloc[0]
     assert np.isnan(row[lost])
     assert note in row["note"]
     kept = "beta" if lost == "gamma" else "gamma"
@@ -141,9 +155,9 @@ def test_single_realisation_and_no_realisation_give_nan_and_a_note():
     none = make_cube(
         thickness_um=(500.0,), reference_height_mm=(170.0,), seeds=1, verdicts={(0, 0, 0): FAILED}
     )
-    row = statistics.powerlaw_table(one).iloc[0]
+    row = powerlaw_table(one).iloc[0]
     assert np.isnan(row["alpha_se"]) and "no degree of freedom" in row["note"]
-    row = statistics.powerlaw_table(none).iloc[0]
+    row = powerlaw_table(none).iloc[0]
     assert np.isnan(row["alpha"]) and row["n"] == 0 and "no usable realisation" in row["note"]
 
 
@@ -163,9 +177,9 @@ def test_published_laws_reproduce_the_quoted_stiffness():
 
 
 def test_powerlaw_table_has_every_direction_and_source():
-    table = statistics.powerlaw_table(noisy_cube(relaxed_again=True))
+    table = powerlaw_table(noisy_cube(relaxed_again=True))
     published_sources = {"published simulation", "published experiment"}
-    assert set(table["source"]) == set(statistics.SIMULATED) | published_sources
+    assert set(table["source"]) == set(SIMULATED) | published_sources
     assert len(table) == 2 * 6
     row = table.set_index(["direction", "source"]).loc[("radial", "published experiment")]
     assert (row["beta"], row["beta_se"]) == (-0.55, 0.04)
@@ -175,18 +189,18 @@ def test_powerlaw_table_has_every_direction_and_source():
 
 def test_a_source_without_values_has_no_law():
     cube = noisy_cube()
-    assert "simulation pre-stressed refined" not in statistics.sources_in(cube)
+    assert "simulation pre-stressed refined" not in sources_in(cube)
     unmeasured = cube["static_stiffness_converged"] * np.nan
     old = cube.assign(static_stiffness_converged=unmeasured).drop_vars("prestressed_stiffness")
-    assert statistics.sources_in(old) == ["simulation"]
-    assert set(statistics.variability_table(old)["quantity"]) == {"static_stiffness"}
+    assert sources_in(old) == ["simulation"]
+    assert set(variability_table(old)["quantity"]) == {"static_stiffness"}
 
 
 @pytest.mark.parametrize(
     ("source", "shift"), [("simulation mesh limit", 0.3), ("simulation pre-stressed", -0.2)]
 )
 def test_thickness_exponents_of_mesh_limit_and_pre_stress_are_recovered(source, shift):
-    law = statistics.simulated_law(make_cube(), "radial", source).law
+    law = simulated_law(make_cube(), "radial", source).law
     assert law.gamma == pytest.approx(LAW["radial"][2] + shift)
     assert law.beta == pytest.approx(LAW["radial"][1])
 
@@ -194,7 +208,7 @@ def test_thickness_exponents_of_mesh_limit_and_pre_stress_are_recovered(source, 
 def test_negative_pre_stressed_values_are_counted_and_leave_the_law_alone():
     cube = make_cube(verdicts={(0, 0, 0): FAILED})
     cube["prestressed_stiffness"][3, 4, :2, 0] = [-7.0, 0.0]
-    table = statistics.powerlaw_table(cube).set_index(["direction", "source"])
+    table = powerlaw_table(cube).set_index(["direction", "source"])
     row = table.loc[("axial", "simulation pre-stressed")]
     assert row["note"] == "2 of 119 values are not positive and do not enter"
     assert (row["n"], row["beta"]) == (117, pytest.approx(LAW["axial"][1]))
@@ -205,7 +219,7 @@ def test_negative_pre_stressed_values_are_counted_and_leave_the_law_alone():
 def test_scatter_of_pre_stressed_values_counts_those_below_zero():
     cube = make_cube(thickness_um=(500.0,), reference_height_mm=(170.0, 250.0), seeds=3)
     cube["prestressed_stiffness"][0, :, :, 0] = [[-1.0, 2.0, 5.0], [-4.0, -1.0, 2.0]]
-    table = statistics.variability_table(cube)
+    table = variability_table(cube)
     rows = table[(table["quantity"] == "prestressed_stiffness") & (table["direction"] == "axial")]
     assert list(rows["n_not_positive"]) == [1, 2]
     assert rows["cv"].iloc[0] == pytest.approx(1.5)
@@ -216,13 +230,11 @@ def test_scatter_of_pre_stressed_values_counts_those_below_zero():
 def test_regression_of_the_scatter_is_that_of_the_stress_free_stiffness():
     cube = noisy_cube()
     wild = cube.assign(prestressed_stiffness=cube["prestressed_stiffness"] ** 3)
-    pd.testing.assert_frame_equal(
-        statistics.variability_law_table(wild), statistics.variability_law_table(cube)
-    )
+    pd.testing.assert_frame_equal(variability_law_table(wild), variability_law_table(cube))
 
 
 def test_coefficient_of_variation_is_exact_where_it_is_prescribed():
-    table = statistics.variability_table(noisy_cube())
+    table = variability_table(noisy_cube())
     assert len(table) == 3 * 2 * 20
     expected = 0.1 + 1e-3 * table["overlength_percent"]
     np.testing.assert_allclose(table["cv"], expected, rtol=1e-10)
@@ -233,20 +245,18 @@ def test_coefficient_of_variation_interval_covers_the_truth_for_six_realisations
     rng = np.random.default_rng(11)
     covered = 0
     for values in 1 + 0.15 * rng.standard_normal((1000, 6)):
-        low, high = statistics.coefficient_of_variation_interval(
-            statistics.coefficient_of_variation(values), 6
-        )
+        low, high = coefficient_of_variation_interval(coefficient_of_variation(values), 6)
         covered += low < 0.15 < high
     assert covered / 1000 == pytest.approx(0.95, abs=0.02)
 
 
 def test_coefficient_of_variation_interval_without_a_bound_is_infinite():
-    assert statistics.coefficient_of_variation_interval(0.9, 3)[1] == np.inf
-    assert np.isnan(statistics.coefficient_of_variation_interval(np.nan, 1)).all()
+    assert coefficient_of_variation_interval(0.9, 3)[1] == np.inf
+    assert np.isnan(coefficient_of_variation_interval(np.nan, 1)).all()
 
 
 def test_variability_law_recovers_its_slope():
-    law = statistics.variability_law_table(noisy_cube())
+    law = variability_law_table(noisy_cube())
     np.testing.assert_allclose(law["slope"], 1e-3, rtol=1e-8)
     np.testing.assert_allclose(law["constant"], 0.1, rtol=1e-8)
     assert (law["n"] == 20).all()
@@ -254,12 +264,12 @@ def test_variability_law_recovers_its_slope():
 
 def test_variability_of_single_realisations_is_nan():
     cube = make_cube(seeds=1)
-    assert statistics.variability_table(cube)["cv"].isna().all()
-    assert statistics.variability_law_table(cube)["slope"].isna().all()
+    assert variability_table(cube)["cv"].isna().all()
+    assert variability_law_table(cube)["slope"].isna().all()
 
 
 def test_eigenfrequency_exponent_is_recovered_beside_the_published_one():
-    table = statistics.eigenfrequency_table(make_cube()).set_index("thickness_um")
+    table = eigenfrequency_table(make_cube()).set_index("thickness_um")
     np.testing.assert_allclose(table["exponent"], EXPONENT, rtol=1e-9)
     assert table.loc[50.0, "published_exponent"] == -2.06
     assert table.loc[500.0, "published_exponent"] == -2.42
@@ -268,7 +278,7 @@ def test_eigenfrequency_exponent_is_recovered_beside_the_published_one():
 
 def test_summary_compares_each_configuration_with_the_published_fits():
     cube = noisy_cube(verdicts={(3, 2, 5): FAILED, (3, 2, 1): ("not_converged", "steps used up")})
-    table = statistics.stiffness_summary(cube)
+    table = stiffness_summary(cube)
     assert len(table) == 40
     row = table[
         (table["thickness_um"] == 500)
@@ -285,11 +295,9 @@ def test_summary_compares_each_configuration_with_the_published_fits():
 
 def test_write_tables_writes_readable_files_and_leaves_no_temporary(tmp_path):
     cube = noisy_cube()
-    paths = statistics.write_tables(cube, tmp_path / "tables")
-    assert {p.name for p in (tmp_path / "tables").iterdir()} == {
-        f"{name}.csv" for name in statistics.TABLES
-    }
+    paths = write_tables(cube, tmp_path / "tables")
+    assert {p.name for p in (tmp_path / "tables").iterdir()} == {f"{name}.csv" for name in TABLES}
     assert len(pd.read_csv(paths[0])) == 2 * 5
     first = [p.read_bytes() for p in paths]
-    again = [p.read_bytes() for p in statistics.write_tables(cube, tmp_path / "tables")]
+    again = [p.read_bytes() for p in write_tables(cube, tmp_path / "tables")]
     assert first == again

@@ -3,18 +3,20 @@
 import subprocess
 import sys
 from dataclasses import asdict
-from importlib import import_module
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from foilstudy.base.files import read_json, write_json
+from foilstudy.base.costs import Cost
+from foilstudy.base.files import read_json
+from foilstudy.study.kernel.files import read_record, write_record
+from foilstudy.study.kernel.plan import Record
 from foilstudy.study.verification.candidates import CANDIDATES
 from foilstudy.study.verification.figures import draw
-from foilstudy.study.verification.plan import ELEMENT_NAMES, MODULES
-from foilstudy.study.verification.records import Benchmark, Curve, Picture, Plot, Quantity
-from foilstudy.study.verification.summary import page, problems, rows, table
+from foilstudy.study.verification.plan import BENCHMARKS, ELEMENT_NAMES, STUDY
+from foilstudy.study.verification.records import Benchmark, Checked, Curve, Picture, Plot
+from foilstudy.study.verification.summary import benchmarks_of, page, problems, rows, table
 
 ROOT = Path(__file__).parents[1]
 MESHES = (10, 20, 30)
@@ -22,9 +24,7 @@ MESHES = (10, 20, 30)
 
 def quantity(values, **changes):
     known = {"reference": 3.0, "exact": True, **changes}
-    return Quantity(
-        "height", "m", known.pop("reference"), "theory", "side", MESHES, values, **known
-    )
+    return Checked("height", "m", known.pop("reference"), "theory", "side", MESHES, values, **known)
 
 
 def converging(power, factor=0.5, limit=3.0):
@@ -36,10 +36,6 @@ def converging(power, factor=0.5, limit=3.0):
 def test_order_is_found_with_and_without_the_exact_value(power, exact):
     found = quantity(converging(power), exact=exact).rate
     assert found == pytest.approx(power, rel=1e-6)
-
-
-def test_limit_is_extrapolated_with_the_order_of_theory():
-    assert quantity(converging(2.0)).limit == pytest.approx(3.0, rel=1e-12)
 
 
 def test_values_that_converge_as_they_should_raise_no_problem():
@@ -79,9 +75,11 @@ def test_records_are_read_as_they_were_written(tmp_path):
     picture = Picture.of("shape", grid, grid[0])
     plot = Plot("u", "F", (Curve("tip", (0.0, 1.0), (0.0, 2.0), (1.0,), (2.1,)),))
     benchmark = Benchmark("name", "Title", "corner", (quantity(converging(2.0)),), plot, (picture,))
-    path = tmp_path / "record.json"
-    write_json(asdict(benchmark), path)
-    assert Benchmark.of(read_json(path)) == benchmark
+    path, case = tmp_path / "record.json", STUDY.part("benchmarks").cases[0]
+    write_record(STUDY, Record("benchmarks", case, asdict(benchmark), Cost()), path)
+    (read,) = benchmarks_of({"benchmarks": {case: read_record(STUDY, path)}})
+    np.testing.assert_equal(asdict(read), read_json(path)["result"])
+    assert page([read]) == page([benchmark]) and rows([read]) == rows([benchmark])
 
 
 def test_large_pictures_are_thinned_but_keep_their_corners():
@@ -92,10 +90,10 @@ def test_large_pictures_are_thinned_but_keep_their_corners():
     np.testing.assert_allclose(kept[:, [0, -1]], points[:, [0, -1]], atol=2e-3)
 
 
-def test_every_registered_benchmark_is_there_under_its_name():
-    for module in set(MODULES.values()):
-        names = set(import_module(f"foilstudy.study.verification.{module}").BENCHMARKS)
-        assert names == {name for name in MODULES if MODULES[name] == module}
+def test_every_nonlinear_benchmark_is_there_under_its_name():
+    bound = {name: getattr(lazy.load(), "__self__", None) for name, lazy in BENCHMARKS.items()}
+    names = {name: case.name for name, case in bound.items() if case is not None}
+    assert len(names) == 5 and all(name == key for key, name in names.items())
 
 
 def test_every_element_under_test_is_there_under_its_name():
@@ -121,7 +119,9 @@ def test_workflow_plans_one_job_per_benchmark_and_element(tmp_path):
         capture_output=True, text=True, cwd=ROOT, check=False,
     )  # fmt: skip
     assert run.returncode == 0, run.stderr
-    assert f"{len(ELEMENT_NAMES) * len(MODULES)} verify_benchmarks, 1 verify_present" in run.stdout
+    assert (
+        f"{len(ELEMENT_NAMES) * len(BENCHMARKS)} verify_benchmarks, 1 verify_present" in run.stdout
+    )
 
 
 def both_elements():
@@ -150,6 +150,6 @@ def test_page_shows_the_table_and_the_figures_of_the_last_run():
     results = ROOT / "results/verification"
     page = (ROOT / "docs/verification.md").read_text(encoding="utf-8")
     assert (results / "verification.md").read_text(encoding="utf-8") in page
-    for name in MODULES:
+    for name in BENCHMARKS:
         assert f"../results/verification/figures/{name}.png" in page
         assert (results / f"figures/{name}.png").is_file()

@@ -1,20 +1,13 @@
 """From all realisations to the cube, the tables, the figures and the report."""
 
+from foilstudy.present.statistics.tables import TABLES
+
 CRUMPLES = cell_paths(f"{RESULTS}/realisations/{CELL}/crumple.nc")
 RESPONSES = cell_paths(f"{RESULTS}/realisations/{CELL}/response.nc")
 REFINED = []
 if STUDY.stiffness.relaxed_refinements:
     REFINED = cell_paths(f"{RESULTS}/realisations/{CELL}/refined.nc")
 
-# Label of each table in `snakemake --report`; captions in workflow/report.
-TABLES = {
-    "powerlaw": "power law",
-    "stiffness_summary": "stiffness of each configuration",
-    "variability": "coefficient of variation",
-    "variability_law": "coefficient of variation against overlength",
-    "eigenfrequency_law": "first eigenfrequency law",
-    "isolation": "foil links beside a mount",
-}
 FIGURE_FILES = expand(f"{RESULTS}/figures/{{name}}.{{kind}}", name=FIGURES, kind=["png", "svg"])
 
 
@@ -47,12 +40,14 @@ rule tables:
         [
             report(
                 f"{RESULTS}/{name}.csv",
-                caption=f"../report/{name}.rst",
+                caption="../report/tables.rst",
                 category="Tables",
-                labels={"table": label},
+                labels={"table": table.title},
             )
-            for name, label in TABLES.items()
+            for name, table in TABLES.items()
         ],
+    params:
+        captions=[f"**{name}.csv:** {table.words}" for name, table in TABLES.items()],
     log:
         f"{LOGS}/tables.log",
     benchmark:

@@ -53,6 +53,12 @@ def write_record(
             variable[...] = values
 
 
+def read_attributes(path: Path) -> dict:
+    """The attributes of a record alone, which costs nothing where its arrays are large."""
+    with netCDF4.Dataset(path) as file:
+        return {name: file.getncattr(name) for name in file.ncattrs()}
+
+
 def read_record(path: Path) -> tuple[dict[str, np.ndarray], dict]:
     """Values of every variable and the attributes of a record."""
     with netCDF4.Dataset(path) as file:

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from foilstudy.base.outcome import USABLE
-from foilstudy.base.record import read_record
+from foilstudy.base.record import read_attributes, read_record
 from foilstudy.model.patch import knot_points
 
 _TOLD = {
@@ -24,16 +24,8 @@ _TOLD = {
 
 
 @dataclass(frozen=True)
-class Crumple:
-    """One realisation on disk.
-
-    Attributes
-    ----------
-    path : Path
-    thickness_um, overlength_percent, reference_height_mm : float
-    seed : int
-    status, message : str
-    """
+class RecordedCrumple:
+    """One realisation on disk."""
 
     path: Path
     thickness_um: float
@@ -50,7 +42,7 @@ class Crumple:
 
 
 @dataclass(frozen=True)
-class Shape:
+class Surface:
     """A crumpled surface.
 
     Attributes
@@ -64,25 +56,25 @@ class Shape:
     radius: float
 
 
-def catalogue(paths: Iterable) -> list[Crumple]:
+def catalogue(paths: Iterable) -> list[RecordedCrumple]:
     """Return the realisations in `paths`, sorted by thickness, overlength and seed."""
     found = []
     for path in map(Path, paths):
-        _, attributes = read_record(path)
+        attributes = read_attributes(path)
         found.append(
-            Crumple(path, **{name: kind(attributes[name]) for name, kind in _TOLD.items()})
+            RecordedCrumple(path, **{name: kind(attributes[name]) for name, kind in _TOLD.items()})
         )
     return sorted(found, key=lambda c: (c.thickness_um, c.overlength_percent, c.seed))
 
 
-def read_shape(crumple: Crumple) -> Shape:
+def read_shape(crumple: RecordedCrumple) -> Surface:
     """Read the crumpled surface of a realisation that has one."""
     values, _ = read_record(crumple.path)
     reference = knot_points(values["reference_control_points"])
-    return Shape(values["control_points"], float(np.hypot(reference[0], reference[1]).mean()))
+    return Surface(values["control_points"], float(np.hypot(reference[0], reference[1]).mean()))
 
 
-def read_history(crumple: Crumple) -> dict[str, np.ndarray]:
+def read_history(crumple: RecordedCrumple) -> dict[str, np.ndarray]:
     """Read the history of a realisation; keys without the prefix ``history_``, SI units."""
     values, _ = read_record(crumple.path)
     return {
@@ -92,7 +84,7 @@ def read_history(crumple: Crumple) -> dict[str, np.ndarray]:
     }
 
 
-def typical_configuration(crumples: list[Crumple]) -> list[Crumple]:
+def typical_configuration(crumples: list[RecordedCrumple]) -> list[RecordedCrumple]:
     """Return all realisations of the thickest foil at its middle overlength with a shape.
 
     Falls back on thinner foils and other overlengths where realisations failed; empty if no

@@ -38,7 +38,6 @@ def draw_mac(ax, matrix: np.ndarray, rows: ModeLabels, columns: ModeLabels):
 
     Parameters
     ----------
-    ax : matplotlib axes
     matrix : ndarray, shape (modes down, modes across)
         From `foilstudy.measure.dynamics.mac.mac`.
     rows, columns : ModeLabels

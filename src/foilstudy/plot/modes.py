@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 
 from foilstudy.base.record import read_record
-from foilstudy.plot.crumples import Crumple
+from foilstudy.plot.crumples import RecordedCrumple
 
 
 @dataclass(frozen=True)
-class Modes:
+class RecordedModes:
     """First modes of one realisation with both rings held.
 
     Attributes
@@ -28,7 +28,9 @@ class Modes:
     shapes: np.ndarray
 
 
-def recorded_modes(crumples: Iterable[Crumple], response_paths: Iterable) -> dict[Path, Modes]:
+def recorded_modes(
+    crumples: Iterable[RecordedCrumple], response_paths: Iterable
+) -> dict[Path, RecordedModes]:
     """Modes of those realisations that have some, by the path of their crumple.
 
     Parameters
@@ -53,7 +55,7 @@ def recorded_modes(crumples: Iterable[Crumple], response_paths: Iterable) -> dic
     return found
 
 
-def read_modes(path: Path) -> Modes | None:
+def read_modes(path: Path) -> RecordedModes | None:
     """Modes in a response.nc whose shape and frequency are known; None if it has none."""
     values, _ = read_record(path)
     if "mode_shape" not in values:
@@ -62,4 +64,4 @@ def read_modes(path: Path) -> Modes | None:
     frequencies = values["eigenfrequency"][: len(shapes)]
     shapes = shapes[: len(frequencies)]
     known = np.isfinite(frequencies) & np.isfinite(shapes).all(axis=(1, 2, 3))
-    return Modes(frequencies[known], shapes[known]) if known.any() else None
+    return RecordedModes(frequencies[known], shapes[known]) if known.any() else None

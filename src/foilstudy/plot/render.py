@@ -9,7 +9,7 @@ import numpy as np
 from scipy.ndimage import gaussian_filter
 
 from foilstudy.model.patch import knot_points, refine
-from foilstudy.plot.crumples import Shape
+from foilstudy.plot.crumples import Surface
 
 COLOUR_MAP = "coolwarm"
 """Diverging map with an even grey middle, made for shaded surfaces (Moreland 2009)."""
@@ -62,13 +62,12 @@ class Picture:
     extent_mm: tuple[float, float, float, float]
 
 
-def render(shape: Shape, view: View) -> Picture:
+def render(shape: Surface, view: View) -> Picture:
     """Return the shaded picture of a surface, coloured by radial displacement.
 
     Parameters
     ----------
-    shape : Shape
-    view : View
+    shape : Surface
     """
     pixel = view.pixel_mm * 1e-3 / _SUPERSAMPLING
     points = _dense_points(shape.control_points, 1.5 * view.pixel_mm * 1e-3)

@@ -20,14 +20,9 @@ def save(figure, stem, dpi: int = PNG_DPI) -> tuple[Path, Path]:
 
     Parameters
     ----------
-    figure : matplotlib.figure.Figure
     stem : path without suffix; its folder is made if missing
     dpi : int
         Dots per inch of the PNG, and of pictures within the SVG.
-
-    Returns
-    -------
-    png, svg : Path
     """
     from foilstudy.plot.style import styled
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from foilstudy.plot.crumples import Shape
+from foilstudy.plot.crumples import Surface
 from foilstudy.plot.render import View, render
 from foilstudy.plot.style import new_figure
 
@@ -32,7 +32,7 @@ def draw_shape(points: np.ndarray, radius: float, title: str, ax=None):
     moved = np.abs(np.hypot(points[0], points[1]) - radius).max()
     scale = max(1e3 * moved, 1e-3)
     view = View(pixel_mm=extent / _PIXELS, colour_scale_mm=scale)
-    picture = render(Shape(points, radius), view)
+    picture = render(Surface(points, radius), view)
     if ax is None:
         ax = new_figure(_INCHES, _INCHES).subplots()
     ax.imshow(picture.rgba, extent=picture.extent_mm)

@@ -61,9 +61,38 @@ def new_figure(width: float, height: float) -> Figure:
     return Figure(figsize=(width, height), layout="constrained", facecolor="white")
 
 
+def panel_grid(rows: int, columns: int, cell, margin, **shared):
+    """Return a figure at most as wide as the page, and its axes, shape (rows, columns).
+
+    Parameters
+    ----------
+    cell, margin : tuple of float
+        Width and height of a panel, and what the figure has beyond its panels, inches.
+    shared
+        ``sharex``, ``sharey``.
+    """
+    width = min(PAGE_WIDTH, cell[0] * columns + margin[0])
+    figure = new_figure(width, cell[1] * rows + margin[1])
+    return figure, figure.subplots(rows, columns, squeeze=False, **shared)
+
+
+def wrapped_grid(count: int, columns_max: int, cell, margin, **shared):
+    """A `panel_grid` of `count` panels, filled row by row; the spare ones are off."""
+    columns = min(columns_max, count)
+    figure, axes = panel_grid(-(-count // columns), columns, cell, margin, **shared)
+    for spare in axes.flat[count:]:
+        spare.set_axis_off()
+    return figure, axes
+
+
 def ordered_colours(n: int) -> list:
     """`n` colours of evenly rising lightness, dark enough for lines on white."""
     return list(mpl.colormaps["viridis"](np.linspace(0.0, 0.76, n) if n > 1 else [0.25]))
+
+
+def coloured(values) -> list[tuple]:
+    """Values, each with its colour of `ordered_colours`."""
+    return list(zip(values, ordered_colours(len(values)), strict=True))
 
 
 def marker(index: int) -> str:
@@ -141,19 +170,48 @@ def _thinned(values, ratio: float = 1.08) -> list[float]:
 
 
 def message_panel(axes, text: str, width: int = 26) -> None:
-    """Turn `axes` into a panel that says why there is nothing to see."""
-    axes.set_axis_off()
-    axes.text(
-        0.5,
-        0.5,
-        textwrap.fill(text, width),
-        transform=axes.transAxes,
-        ha="center",
-        va="center",
-        color=GREY,
-        fontsize=9.5,
-        style="italic",
+    """Turn one or several axes into panels that say why there is nothing to see."""
+    for ax in np.ravel(axes):
+        ax.set_axis_off()
+        ax.text(
+            0.5, 0.5, textwrap.fill(text, width), transform=ax.transAxes, ha="center", va="center",
+            color=GREY, fontsize=9.5, style="italic",
+        )  # fmt: skip
+
+
+def message_figure(text: str = "no usable realisation in this study") -> Figure:
+    """Return a figure that says why there is nothing to see."""
+    figure = new_figure(6, 2)
+    message_panel(figure.subplots(), text, 60)
+    return figure
+
+
+def legend_below(figure: Figure, axes, columns_max: int = 8, **options) -> None:
+    """One legend for all axes below them: that of the axes which has the most entries."""
+    handles, labels = max(
+        (ax.get_legend_handles_labels() for ax in np.ravel(axes)), key=lambda pair: len(pair[0])
     )
+    if handles:
+        columns = min(columns_max, len(labels))
+        figure.legend(handles, labels, loc="outside lower center", ncols=columns, **options)
+
+
+def median_band(ax, x: np.ndarray, curves: np.ndarray, colour, **line) -> None:
+    """Median of curves as a line, from the smallest to the largest as a band.
+
+    Parameters
+    ----------
+    x : ndarray, shape (n,)
+    curves : ndarray, shape (m, n)
+        NaN where a curve is not known; places where none is are left out.
+    line
+        Passed on to ``ax.plot``.
+    """
+    known = np.isfinite(curves).any(axis=0)
+    x, curves = x[known], curves[:, known]
+    low, high = np.nanmin(curves, axis=0), np.nanmax(curves, axis=0)
+    ax.fill_between(x, low, high, color=colour, alpha=BAND_ALPHA, lw=0)
+    ax.plot(x, np.nanmedian(curves, axis=0), color=colour, **line)
 
 
 def label_ends(axes, x: float, labels, gap: float = 0.062, **text) -> None:

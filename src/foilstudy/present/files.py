@@ -68,7 +68,7 @@ class StudyFiles:
         return tuple(path for path in beside if path.exists())
 
     def table(self, name: str) -> Path:
-        """Path of a table, named as in `foilstudy.present.statistics.TABLES`."""
+        """Path of a table, named as in `foilstudy.present.statistics.tables.TABLES`."""
         return self.folder / f"{name}.csv"
 
     def _cells(self):

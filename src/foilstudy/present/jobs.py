@@ -16,7 +16,7 @@ import foilstudy.plot.render
 from foilstudy.present.figures import draw_figures
 from foilstudy.present.files import StudyFiles
 from foilstudy.present.report import write_report
-from foilstudy.present.statistics import write_tables
+from foilstudy.present.statistics.tables import write_tables
 
 
 def tables(cube: Path) -> None:

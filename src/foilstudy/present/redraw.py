@@ -8,7 +8,7 @@ from pathlib import Path
 from foilstudy.present.figures import FIGURES, FigureSpec, draw_figures
 from foilstudy.present.files import StudyFiles
 from foilstudy.present.report import write_report
-from foilstudy.present.statistics import write_tables
+from foilstudy.present.statistics.tables import write_tables
 
 
 @dataclass(frozen=True)
@@ -40,10 +40,6 @@ def redraw(results: str | Path) -> Redrawn:
         Folder of a study, ``results/NAME``, or its ``cube.nc``. Figures of shapes, histories and
         modes need the records of all its realisations, ``realisations/*/*/*/crumple.nc`` and
         ``response.nc`` beside them.
-
-    Returns
-    -------
-    Redrawn
 
     Raises
     ------

@@ -5,13 +5,13 @@ from __future__ import annotations
 from importlib import import_module
 
 from foilstudy.base.errors import ConfigError
-from foilstudy.study.kernel import Study
+from foilstudy.study.kernel.plan import Study
 
 MODULES = (
-    "verification",
-    "elements",
-    "convergence",
-    "dynamics",
+    "verification.plan",
+    "elements.plan",
+    "convergence.plan",
+    "dynamics.plan",
 )
 """Modules of this package that define a ``STUDY``."""
 

@@ -4,19 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from foilstudy.plot.style import (
-    BAND_ALPHA,
-    GREY,
-    PAGE_WIDTH,
-    line_style,
-    message_panel,
-    new_figure,
-    ordered_colours,
-    overlength_label,
-    styled,
-    thickness_label,
-    value_ticks,
-)
+from foilstudy.plot import style
 from foilstudy.present.statistics.modal_density import resolved_up_to
 from foilstudy.present.statistics.overlength_spread import (
     RATIO_MAX,
@@ -29,30 +17,25 @@ _UNRESOLVED = {"color": "0.93", "lw": 0, "zorder": 0}
 _DIRECTION_STYLES = (("-", "0.1"), ((0, (4, 1.5)), "0.45"))
 
 
-@styled
+@style.styled
 def draw(cube):
-    """Draw a row per direction and one of the criterion; one column per thickness.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset
-    """
+    """Draw a row per direction and one of the criterion; one column per thickness."""
     directions = list(map(str, cube["direction"].values))
     thicknesses = cube["thickness"].to_numpy()
-    rows = len(directions) + 1
-    figure = new_figure(min(PAGE_WIDTH, 2.2 * thicknesses.size + 2.2), 2.2 * rows + 0.7)
-    axes = figure.subplots(rows, thicknesses.size, sharex=True, sharey="row", squeeze=False)
+    figure, axes = style.panel_grid(
+        len(directions) + 1, thicknesses.size, (2.2, 2.2), (2.2, 0.7), sharex=True, sharey="row"
+    )
     frequency = cube["frequency"].to_numpy()
     limit = resolved_up_to(cube)
     for column, thickness in zip(axes.T, thicknesses):
-        column[0].set_title(thickness_label(thickness))
+        column[0].set_title(style.thickness_label(thickness))
         found = {}
         for ax, direction in zip(column, directions):
             magnitude = relative_magnitude(cube, thickness, direction)
             try:
                 found[direction] = overlength_spread(frequency, magnitude)
             except ValueError as reason:
-                message_panel(ax, str(reason))
+                style.message_panel(ax, str(reason))
             else:
                 _curves(ax, found[direction], cube["overlength"].to_numpy())
         _criterion(column[-1], found, directions)
@@ -66,16 +49,16 @@ def draw(cube):
 def _curves(ax, spread: OverlengthSpread, overlengths) -> None:
     """Each overlength over the mean of all, and the scatter of the seeds about 1."""
     low, high = np.exp(-spread.within), np.exp(spread.within)
-    ax.fill_between(spread.frequency, low, high, color=GREY, alpha=2 * BAND_ALPHA, lw=0)
-    for j, colour in enumerate(ordered_colours(overlengths.size)):
+    ax.fill_between(spread.frequency, low, high, color=style.GREY, alpha=2 * style.BAND_ALPHA, lw=0)
+    for j, colour in enumerate(style.ordered_colours(overlengths.size)):
         if np.isfinite(spread.deviation[j]).all():
             ax.plot(
                 spread.frequency,
                 np.exp(spread.deviation[j]),
                 color=colour,
                 lw=1.3,
-                ls=line_style(j),
-                label=overlength_label(overlengths[j]),
+                ls=style.line_style(j),
+                label=style.overlength_label(overlengths[j]),
             )
     start = spread.one_curve_from_hz
     if np.isfinite(start):
@@ -94,25 +77,22 @@ def _criterion(ax, found: dict[str, OverlengthSpread], directions) -> None:
     if not found:
         ax.set_axis_off()
         return
-    for direction, (style, colour) in zip(directions, _DIRECTION_STYLES):
+    for direction, (look, colour) in zip(directions, _DIRECTION_STYLES):
         if direction in found:
             spread = found[direction]
-            ax.plot(spread.frequency, spread.ratio, ls=style, color=colour, lw=1.4, label=direction)
+            ax.plot(spread.frequency, spread.ratio, ls=look, color=colour, lw=1.4, label=direction)
     ax.axhline(RATIO_MAX, color="0.2", lw=0.9, ls=":")
 
 
 def _label(figure, axes, directions) -> None:
     for ax in axes.flat:
-        if not ax.axison:
-            continue
-        low, high = ax.get_xlim()
-        value_ticks(ax.xaxis, [f for f in (1, 10, 100, 800) if low <= f <= high])
+        if ax.axison:
+            style.value_ticks(ax.xaxis, (1, 10, 100, 800))
     for row, direction in zip(axes, directions):
         row[0].set_ylabel(f"{direction} |k| over\nmean of overlengths")
         shown = next((ax for ax in row if ax.axison), None)
         if shown is not None:
-            low, high = shown.get_ylim()
-            value_ticks(shown.yaxis, [v for v in (0.1, 0.2, 0.5, 1, 2, 5, 10) if low <= v <= high])
+            style.value_ticks(shown.yaxis, (0.1, 0.2, 0.5, 1, 2, 5, 10))
     axes[-1, 0].set_ylabel("spread of overlengths\nover that of seeds")
     for ax in axes[-1]:
         ax.set_xlabel("frequency (Hz)")
@@ -120,14 +100,4 @@ def _label(figure, axes, directions) -> None:
     if criteria:
         criteria[0].set_ylim(bottom=0)
         criteria[0].legend(loc="upper right", handlelength=2.5)
-    handles, labels = max(
-        (ax.get_legend_handles_labels() for ax in axes[:-1].flat), key=lambda pair: len(pair[0])
-    )
-    if handles:
-        figure.legend(
-            handles,
-            labels,
-            title="overlength",
-            loc="outside lower center",
-            ncols=min(8, len(labels)),
-        )
+    style.legend_below(figure, axes[:-1], title="overlength")

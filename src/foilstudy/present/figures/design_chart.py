@@ -8,16 +8,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.patches import Patch, Rectangle
 
-from foilstudy.plot.style import (
-    PAGE_WIDTH,
-    message_panel,
-    new_figure,
-    overlength_label,
-    short_number,
-    styled,
-    thickness_label,
-    value_ticks,
-)
+from foilstudy.plot import style
 from foilstudy.present.configuration import isolation_options
 from foilstudy.present.statistics.isolation import isolation_table
 from foilstudy.present.statistics.mounts import MOUNTS
@@ -29,22 +20,16 @@ _COLUMNS_WITH_WORST = 9
 """With more overlengths a cell is too narrow for a second number."""
 
 
-@styled
+@style.styled
 def draw(cube):
-    """Draw one panel per direction (row) and mount (column), one cell per configuration.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset
-    """
+    """Draw one panel per direction (row) and mount (column), one cell per configuration."""
     table = isolation_table(cube)
     directions = list(map(str, cube["direction"].values))
     rows = cube.sizes["thickness"]
-    figure = new_figure(PAGE_WIDTH, len(directions) * (0.9 + 0.48 * rows) + 0.9)
+    figure = style.new_figure(style.PAGE_WIDTH, len(directions) * (0.9 + 0.48 * rows) + 0.9)
     axes = figure.subplots(len(directions), len(MOUNTS), sharex=True, sharey=True, squeeze=False)
     if not table["n"].any():
-        for ax in axes.flat:
-            message_panel(ax, "no usable realisation in this study")
+        style.message_panel(axes, "no usable realisation in this study")
         return figure
     norm = _norm(table)
     for row, direction in zip(axes, directions):
@@ -80,7 +65,7 @@ def _colour_bar(figure, axes, norm) -> None:
     bar.outline.set_visible(False)
     steps = [m * 10.0**e for e in range(-2, 7) for m in (1, 2, 5)]
     ticks = [tick for tick in steps if norm.vmin <= tick < 0.9 * norm.vmax]
-    value_ticks(bar.ax.yaxis, [*ticks, norm.vmax], short_number)
+    style.value_ticks(bar.ax.yaxis, [*ticks, norm.vmax], style.short_number)
 
 
 def _panel(ax, cells, norm) -> None:
@@ -98,8 +83,12 @@ def _panel(ax, cells, norm) -> None:
     ax.grid(False)
     ax.set_xlim(0, len(overlengths))
     ax.set_ylim(0, len(thicknesses))
-    ax.set_xticks(np.arange(len(overlengths)) + 0.5, [overlength_label(o) for o in overlengths])
-    ax.set_yticks(np.arange(len(thicknesses)) + 0.5, [thickness_label(t) for t in thicknesses])
+    ax.set_xticks(
+        np.arange(len(overlengths)) + 0.5, [style.overlength_label(o) for o in overlengths]
+    )
+    ax.set_yticks(
+        np.arange(len(thicknesses)) + 0.5, [style.thickness_label(t) for t in thicknesses]
+    )
     ax.tick_params(length=0)
     ax.tick_params(axis="x", labelsize=9 if len(overlengths) <= _COLUMNS_WITH_WORST else 7)
     ax.spines[:].set_visible(False)

@@ -5,54 +5,36 @@ from __future__ import annotations
 import numpy as np
 
 from foilstudy.base.reference import published
-from foilstudy.plot.style import (
-    BAND_ALPHA,
-    decade_ticks,
-    label_ends,
-    marker,
-    message_panel,
-    new_figure,
-    ordered_colours,
-    span,
-    styled,
-    thickness_label,
-    value_ticks,
-)
+from foilstudy.plot import style
 from foilstudy.present.statistics.cells import samples
 from foilstudy.present.statistics.eigenfrequency import fit_eigenfrequency_law
 
 
-@styled
+@style.styled
 def draw(cube):
-    """Draw the law of every thickness, beside the published exponent where there is one.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset
-    """
+    """Draw the law of every thickness, beside the published exponent where there is one."""
     data = samples(cube, "first_eigenfrequency")
     thicknesses = cube["thickness"].to_numpy()
     heights = cube["reference_height"].to_numpy()
-    figure = new_figure(8.6, 4.8)
-    ax = figure.subplots()
     if not data.value.size:
-        message_panel(ax, "no usable realisation in this study")
-        return figure
+        return style.message_figure()
+    figure = style.new_figure(8.6, 4.8)
+    ax = figure.subplots()
     ax.set_xscale("log")
     ax.set_yscale("log")
-    ax.set_xlim(span(heights, 1.06))
-    ax.set_ylim(span(data.value, 1.25))
+    ax.set_xlim(style.span(heights, 1.06))
+    ax.set_ylim(style.span(data.value, 1.25))
     labels = []
-    for i, (thickness, colour) in enumerate(zip(thicknesses, ordered_colours(thicknesses.size))):
+    for i, (thickness, colour) in enumerate(style.coloured(thicknesses)):
         mine = data.at_thickness(thickness)
         if mine.value.size:
-            end = _series(ax, mine, colour, marker(i), np.geomspace(*ax.get_xlim(), 50))
+            end = _series(ax, mine, colour, style.marker(i), np.geomspace(*ax.get_xlim(), 50))
             labels.append((end, _label(thickness, fit_eigenfrequency_law(mine)), colour))
-    value_ticks(ax.xaxis, heights)
-    decade_ticks(ax.yaxis)
+    style.value_ticks(ax.xaxis, heights)
+    style.decade_ticks(ax.yaxis)
     ax.set_xlabel("reference height (mm)")
     ax.set_ylabel("first eigenfrequency (Hz)")
-    label_ends(ax, 1.015, labels, gap=0.12, fontsize=9.5)
+    style.label_ends(ax, 1.015, labels, gap=0.12, fontsize=9.5)
     return figure
 
 
@@ -69,7 +51,9 @@ def _series(ax, data, colour, symbol: str, height) -> float:
     mean, low, high = fit.predict({"reference_height": np.log(height)})
     ax.plot(height, np.exp(mean), color=colour)
     if np.isfinite(low).all():
-        ax.fill_between(height, np.exp(low), np.exp(high), color=colour, alpha=BAND_ALPHA, lw=0)
+        ax.fill_between(
+            height, np.exp(low), np.exp(high), color=colour, alpha=style.BAND_ALPHA, lw=0
+        )
     exponent = published().first_eigenfrequency_exponents.get(float(data.thickness_um[0]))
     if exponent is not None:
         middle = np.exp(np.log(data.reference_height_mm).mean())
@@ -78,7 +62,7 @@ def _series(ax, data, colour, symbol: str, height) -> float:
 
 
 def _label(thickness: float, fit) -> str:
-    name = thickness_label(thickness)
+    name = style.thickness_label(thickness)
     exponent = fit.value["reference_height"]
     if not np.isfinite(exponent):
         return name

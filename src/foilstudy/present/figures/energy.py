@@ -5,26 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from foilstudy.base.outcome import USABLE
-from foilstudy.plot.style import (
-    PAGE_WIDTH,
-    message_panel,
-    new_figure,
-    overlength_label,
-    styled,
-    thickness_label,
-)
+from foilstudy.plot import style
 
 _PARTS = {"bending": ("0.35", ""), "membrane": ("0.65", ""), "stabilisation": ("#d95f02", "///")}
 
 
-@styled
+@style.styled
 def draw(cube):
-    """Draw one panel per thickness, one bar per overlength.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset
-    """
+    """Draw one panel per thickness, one bar per overlength."""
     usable = cube["status"].isin(USABLE)
     parts = {
         name: cube[f"{name}_energy"]
@@ -36,22 +24,13 @@ def draw(cube):
     }
     thicknesses = cube["thickness"].to_numpy()
     overlengths = cube["overlength"].to_numpy()
-    columns = min(4, thicknesses.size)
-    rows = -(-thicknesses.size // columns)
-    figure = new_figure(min(PAGE_WIDTH, 2.2 * columns + 2.2), 3.0 * rows + 0.5)
-    axes = figure.subplots(rows, columns, sharey=True, squeeze=False).ravel()
-    for i, (ax, thickness) in enumerate(zip(axes, thicknesses)):
-        ax.set_title(thickness_label(thickness), pad=16)
+    figure, axes = style.wrapped_grid(thicknesses.size, 4, (2.2, 3.0), (2.2, 0.5), sharey=True)
+    for i, (ax, thickness) in enumerate(zip(axes.flat, thicknesses)):
+        ax.set_title(style.thickness_label(thickness), pad=16)
         _bars(ax, {name: values[i] for name, values in parts.items()}, overlengths)
-    for ax in axes[thicknesses.size :]:
-        ax.set_visible(False)
-    for ax in axes[::columns]:
+    for ax in axes[:, 0]:
         ax.set_ylabel("share of strain energy (%)")
-    handles, labels = max(
-        (ax.get_legend_handles_labels() for ax in axes), key=lambda pair: len(pair[0])
-    )
-    if handles:
-        figure.legend(handles, labels, loc="outside lower center", ncols=3)
+    style.legend_below(figure, axes)
     return figure
 
 
@@ -59,7 +38,7 @@ def _bars(ax, parts, overlengths) -> None:
     total = sum(parts.values())
     known = np.isfinite(total) & (total > 0)
     if not known.any():
-        message_panel(ax, "no usable realisation")
+        style.message_panel(ax, "no usable realisation")
         return
     x = np.arange(overlengths.size)
     base = np.zeros(overlengths.size)
@@ -74,7 +53,7 @@ def _bars(ax, parts, overlengths) -> None:
         ax.text(i, 102 if known[i] else 2, text, ha="center", va="bottom", fontsize=8, color="0.25")
     ax.set_ylim(0, 100)
     ax.grid(axis="x", visible=False)
-    ax.set_xticks(x, [overlength_label(o)[:-2] for o in overlengths])
+    ax.set_xticks(x, [style.overlength_label(o)[:-2] for o in overlengths])
     ax.set_xlabel("overlength (%)")
 
 

@@ -4,50 +4,30 @@ from __future__ import annotations
 
 import numpy as np
 
-from foilstudy.plot.style import (
-    BAND_ALPHA,
-    decade_ticks,
-    marker,
-    message_panel,
-    new_figure,
-    ordered_colours,
-    overlength_axis,
-    span,
-    styled,
-    thickness_label,
-    value_ticks,
-)
+from foilstudy.plot import style
 from foilstudy.present.statistics.cells import samples
 from foilstudy.present.statistics.powerlaw import NORMAL_95, fit_power_law
 
 
-@styled
+@style.styled
 def draw(cube):
-    """Draw observed against fitted stiffness, and their ratio against overlength.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset
-    """
+    """Draw observed against fitted stiffness, and their ratio against overlength."""
     directions = list(map(str, cube["direction"].values))
-    figure = new_figure(8.2, 6.6)
+    figure = style.new_figure(8.2, 6.6)
     axes = figure.subplots(2, len(directions), squeeze=False, height_ratios=[1.25, 1], sharey="row")
     for column, direction in zip(axes.T, directions):
         data = samples(cube, "static_stiffness", direction=direction)
         fit = fit_power_law(data).fit
         column[0].set_title(direction)
         if not np.isfinite(fit.value["constant"]):
-            for ax in column:
-                message_panel(ax, fit.note)
+            style.message_panel(column, fit.note)
             continue
         _pair(column, data, fit, cube["thickness"].to_numpy(), cube["overlength"].to_numpy())
-        decade_ticks(column[0].xaxis)
-        decade_ticks(column[0].yaxis)
+        style.decade_ticks(column[0].xaxis)
+        style.decade_ticks(column[0].yaxis)
     axes[0, 0].set_ylabel("stiffness (N/m)")
     axes[1, 0].set_ylabel("stiffness / fitted law")
-    handles, labels = axes[0, 0].get_legend_handles_labels()
-    if handles:
-        figure.legend(handles, labels, loc="outside lower center", ncols=min(6, len(labels)))
+    style.legend_below(figure, axes[0], 6)
     return figure
 
 
@@ -55,7 +35,7 @@ def _pair(column, data, fit, thicknesses, overlengths) -> None:
     top, bottom = column
     fitted = np.exp(fit.fitted)
     ratio = data.value / fitted
-    limits = span(np.concatenate([data.value, fitted]))
+    limits = style.span(np.concatenate([data.value, fitted]))
     factor = np.exp(NORMAL_95 * fit.residual_std)
     for ax in column:
         ax.set_yscale("log")
@@ -67,22 +47,23 @@ def _pair(column, data, fit, thicknesses, overlengths) -> None:
             np.divide(limits, factor),
             np.multiply(limits, factor),
             color="0.5",
-            alpha=BAND_ALPHA,
+            alpha=style.BAND_ALPHA,
             lw=0,
         )
-        bottom.axhspan(1 / factor, factor, color="0.5", alpha=BAND_ALPHA, lw=0)
+        bottom.axhspan(1 / factor, factor, color="0.5", alpha=style.BAND_ALPHA, lw=0)
     bottom.axhline(1, color="0.3", lw=1)
-    for i, (thickness, colour) in enumerate(zip(thicknesses, ordered_colours(thicknesses.size))):
+    for i, (thickness, colour) in enumerate(style.coloured(thicknesses)):
         mine = data.thickness_um == thickness
-        style = {"ls": "", "marker": marker(i), "mfc": "none", "mec": colour, "ms": 5, "mew": 1.1}
-        top.plot(fitted[mine], data.value[mine], label=thickness_label(thickness), **style)
+        look = {"ls": "", "marker": style.marker(i), "mfc": "none", "mec": colour, "ms": 5}
+        look["mew"] = 1.1
+        top.plot(fitted[mine], data.value[mine], label=style.thickness_label(thickness), **look)
         # Thicknesses side by side, so that their dots do not hide each other.
         shift = 1.035 ** (i - (thicknesses.size - 1) / 2)
-        bottom.plot(data.overlength_percent[mine] * shift, ratio[mine], **style)
+        bottom.plot(data.overlength_percent[mine] * shift, ratio[mine], **look)
     top.set_xlabel("fitted law (N/m)")
-    overlength_axis(bottom, overlengths)
+    style.overlength_axis(bottom, overlengths)
     ends = max(ratio.max(), 1 / ratio.min(), factor if np.isfinite(factor) else 1, 1.05) * 1.05
     low, high = bottom.get_ylim()
     bottom.set_ylim(min(low, 1 / ends), max(high, ends))
     choices = [0.2, 0.33, 0.5, 0.67, 0.8, 1, 1.25, 1.5, 2, 3, 5]
-    value_ticks(bottom.yaxis, [c for c in choices if 1 / ends <= c <= ends])
+    style.value_ticks(bottom.yaxis, [c for c in choices if 1 / ends <= c <= ends])

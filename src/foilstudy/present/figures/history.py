@@ -4,41 +4,26 @@ from __future__ import annotations
 
 import numpy as np
 
+from foilstudy.plot import style
 from foilstudy.plot.crumples import catalogue, read_history, typical_configuration
-from foilstudy.plot.style import (
-    label_ends,
-    message_panel,
-    new_figure,
-    ordered_colours,
-    overlength_label,
-    styled,
-    thickness_label,
-)
 
 _ENERGIES = ("bending", "membrane", "stabilisation", "kinetic")
 _LINES = ("-", "--", "-.", ":")
 
 
-@styled
+@style.styled
 def draw(crumple_paths):
-    """Draw the history of one realisation of the thickest foil at its middle overlength.
-
-    Parameters
-    ----------
-    crumple_paths : paths of crumple.nc files
-    """
+    """Draw the history of one realisation of the thickest foil at its middle overlength."""
     crumples = typical_configuration(catalogue(crumple_paths))
     if not crumples:
-        figure = new_figure(6, 2)
-        message_panel(figure.subplots(), "no usable realisation in this study", 60)
-        return figure
+        return style.message_figure()
     crumple = crumples[0]
     history = read_history(crumple)
-    figure = new_figure(8.2, 7.6)
+    figure = style.new_figure(8.2, 7.6)
     axes = figure.subplots(4, 1, sharex=True, height_ratios=[0.8, 1, 1.5, 0.9])
     figure.suptitle(
-        f"{thickness_label(crumple.thickness_um)}, "
-        f"overlength {overlength_label(crumple.overlength_percent)}, seed {crumple.seed}",
+        f"{style.thickness_label(crumple.thickness_um)}, "
+        f"overlength {style.overlength_label(crumple.overlength_percent)}, seed {crumple.seed}",
         fontsize=11,
     )
     step = history["step"]
@@ -46,7 +31,7 @@ def draw(crumple_paths):
     for ax in axes:
         ax.axvline(ramp_end, color="0.6", lw=1)
         ax.set_xlim(step[0], step[-1])
-    colour = ordered_colours(5)[1]
+    colour = style.ordered_colours(5)[1]
     axes[0].plot(step, 1e3 * history["height"], color=colour)
     axes[0].set_ylabel("height (mm)")
     axes[1].plot(step, history["reaction_force"], color=colour)
@@ -76,13 +61,13 @@ def _energies(ax, history) -> None:
     ax.set_yscale("log")
     largest = max(np.nanmax(history[f"{name}_energy"]) for name in _ENERGIES)
     if not largest > 0:
-        message_panel(ax, "no energy recorded")
+        style.message_panel(ax, "no energy recorded")
         return
     ax.set_ylim(largest * 1e-8, largest * 3)
     labels = []
-    for name, colour, line in zip(_ENERGIES, ordered_colours(len(_ENERGIES)), _LINES):
+    for name, colour, line in zip(_ENERGIES, style.ordered_colours(len(_ENERGIES)), _LINES):
         energy = history[f"{name}_energy"]
         ax.plot(history["step"], np.where(energy > 0, energy, np.nan), color=colour, ls=line)
         labels.append((np.clip(energy[-1], largest * 2e-8, None), name, colour))
-    label_ends(ax, 1.01, labels, gap=0.11)
+    style.label_ends(ax, 1.01, labels, gap=0.11)
     ax.set_ylabel("energy (J)")

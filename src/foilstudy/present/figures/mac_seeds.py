@@ -7,27 +7,15 @@ from itertools import combinations
 import numpy as np
 
 from foilstudy.measure.dynamics.mac import mac
-from foilstudy.plot.crumples import Crumple, catalogue
+from foilstudy.plot import style
+from foilstudy.plot.crumples import RecordedCrumple, catalogue
 from foilstudy.plot.mac import ModeLabels, draw_mac
-from foilstudy.plot.modes import Modes, recorded_modes
-from foilstudy.plot.style import (
-    message_panel,
-    new_figure,
-    overlength_label,
-    styled,
-    thickness_label,
-)
+from foilstudy.plot.modes import RecordedModes, recorded_modes
 
 
-@styled
+@style.styled
 def draw(crumple_paths, response_paths):
-    """Draw the MAC of two seeds, for the thinnest and the thickest foil at its middle overlength.
-
-    Parameters
-    ----------
-    crumple_paths : paths of crumple.nc files
-    response_paths : paths of response.nc files
-    """
+    """Draw the MAC of two seeds, for thinnest and thickest foil at its middle overlength."""
     crumples = [crumple for crumple in catalogue(crumple_paths) if crumple.has_shape]
     cases = [
         [(crumple, modes[crumple.path]) for crumple in cell]
@@ -36,11 +24,10 @@ def draw(crumple_paths, response_paths):
         if len(modes) == len(cell)
     ]
     if not cases:
-        figure = new_figure(6, 2)
-        text = "no usable realisation, or no configuration with the mode shapes of two seeds"
-        message_panel(figure.subplots(), text, 60)
-        return figure
-    figure = new_figure(4.7 * len(cases) + 0.6, 5.2)
+        return style.message_figure(
+            "no usable realisation, or no configuration with the mode shapes of two seeds"
+        )
+    figure = style.new_figure(4.7 * len(cases) + 0.6, 5.2)
     axes = figure.subplots(1, len(cases), squeeze=False)[0]
     for ax, case in zip(axes, cases):
         image = _panel(ax, case)
@@ -50,9 +37,9 @@ def draw(crumple_paths, response_paths):
     return figure
 
 
-def _thin_and_thick(crumples: list[Crumple]) -> list[list[Crumple]]:
+def _thin_and_thick(crumples: list[RecordedCrumple]) -> list[list[RecordedCrumple]]:
     """Realisations at the middle overlength of the thinnest and the thickest foil."""
-    cells: dict[float, dict[float, list[Crumple]]] = {}
+    cells: dict[float, dict[float, list[RecordedCrumple]]] = {}
     for crumple in crumples:
         cell = cells.setdefault(crumple.thickness_um, {})
         cell.setdefault(crumple.overlength_percent, []).append(crumple)
@@ -64,7 +51,7 @@ def _thin_and_thick(crumples: list[Crumple]) -> list[list[Crumple]]:
     return chosen
 
 
-def _panel(ax, case: list[tuple[Crumple, Modes]]):
+def _panel(ax, case: list[tuple[RecordedCrumple, RecordedModes]]):
     (first, modes_a), (second, modes_b) = case[:2]
     matrix = _compared(modes_a, modes_b)
     image = draw_mac(
@@ -76,8 +63,8 @@ def _panel(ax, case: list[tuple[Crumple, Modes]]):
     best = best_partners([modes for _, modes in case])
     pairs = len(case) * (len(case) - 1) // 2
     name = (
-        f"{thickness_label(first.thickness_um)}, "
-        f"overlength {overlength_label(first.overlength_percent)}"
+        f"{style.thickness_label(first.thickness_um)}, "
+        f"overlength {style.overlength_label(first.overlength_percent)}"
     )
     among = f"{pairs} pairs of seeds" if pairs > 1 else "this pair"
     ax.set_title(
@@ -87,7 +74,7 @@ def _panel(ax, case: list[tuple[Crumple, Modes]]):
     return image
 
 
-def best_partners(modes: list[Modes]) -> np.ndarray:
+def best_partners(modes: list[RecordedModes]) -> np.ndarray:
     """Largest MAC of every mode of one realisation with those of another, over all pairs."""
     best = []
     for one, other in combinations(modes, 2):
@@ -96,5 +83,5 @@ def best_partners(modes: list[Modes]) -> np.ndarray:
     return np.concatenate(best)
 
 
-def _compared(one: Modes, other: Modes) -> np.ndarray:
+def _compared(one: RecordedModes, other: RecordedModes) -> np.ndarray:
     return mac(*(modes.shapes.reshape(len(modes.shapes), -1).T for modes in (one, other)))

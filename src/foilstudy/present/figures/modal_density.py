@@ -4,19 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from foilstudy.plot.style import (
-    BAND_ALPHA,
-    GREY,
-    decade_ticks,
-    line_style,
-    message_panel,
-    new_figure,
-    ordered_colours,
-    overlength_label,
-    styled,
-    thickness_label,
-    value_ticks,
-)
+from foilstudy.plot import style
 from foilstudy.present.statistics.modal_density import (
     ELEMENTS_PER_WAVE,
     counted_modal_density,
@@ -29,32 +17,22 @@ _LOWEST_DENSITY = 0.01
 """Bottom of the axis, modes per Hz: less means that a band has just met its first mode."""
 
 
-@styled
+@style.styled
 def draw(cube):
-    """Draw one panel per thickness, one curve per overlength.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset
-    """
+    """Draw one panel per thickness, one curve per overlength."""
     if "mode_count" not in cube:
-        figure = new_figure(6, 2)
-        message_panel(figure.subplots(), "no usable mode counts in this study", 60)
-        return figure
+        return style.message_figure("no usable mode counts in this study")
     density, plate, limit = (
         function(cube) for function in (counted_modal_density, plate_modal_density, resolved_up_to)
     )
     density = density.sel(frequency=density["frequency"] >= _start(density))
     thicknesses = cube["thickness"].to_numpy()
-    columns = min(_COLUMNS, thicknesses.size)
-    rows = -(-thicknesses.size // columns)
-    figure = new_figure(4.3 * columns + 0.6, 2.7 * rows + 0.8)
-    axes = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
-    for spare in axes.flat[thicknesses.size :]:
-        spare.set_axis_off()
+    figure, axes = style.wrapped_grid(
+        thicknesses.size, _COLUMNS, (4.3, 2.7), (0.6, 0.8), sharex=True, sharey=True
+    )
     for ax, thickness in zip(axes.flat, thicknesses):
         at = {"thickness": thickness}
-        ax.set_title(thickness_label(thickness))
+        ax.set_title(style.thickness_label(thickness))
         _panel(ax, density.sel(at), None if plate is None else plate.sel(at))
         if limit is not None and np.isfinite(limit.sel(at)):
             _unresolved(ax, float(limit.sel(at)), float(density["frequency"][-1]))
@@ -72,7 +50,7 @@ def _panel(ax, density, plate) -> None:
     frequency = density["frequency"].to_numpy()
     overlengths = density["overlength"].to_numpy()
     drawn = False
-    for j, colour in enumerate(ordered_colours(overlengths.size)):
+    for j, colour in enumerate(style.ordered_colours(overlengths.size)):
         curves = density.isel(overlength=j).transpose("seed", "frequency").to_numpy()
         curves = curves[np.isfinite(curves).any(axis=1)]
         if not (curves > 0).any():
@@ -81,16 +59,16 @@ def _panel(ax, density, plate) -> None:
         curves = np.where(curves > 0, curves, np.nan)  # a band without modes leaves a gap
         known = np.isfinite(curves).all(axis=0)
         low, high = (np.where(known, edge(curves, axis=0), np.nan) for edge in (np.min, np.max))
-        ax.fill_between(frequency, low, high, color=colour, alpha=BAND_ALPHA, lw=0)
+        ax.fill_between(frequency, low, high, color=colour, alpha=style.BAND_ALPHA, lw=0)
         ax.plot(
             frequency,
             np.where(known, np.median(curves, axis=0), np.nan),
             color=colour,
-            ls=line_style(j),
-            label=overlength_label(overlengths[j]),
+            ls=style.line_style(j),
+            label=style.overlength_label(overlengths[j]),
         )
     if not drawn:
-        message_panel(ax, "no usable realisation")
+        style.message_panel(ax, "no usable realisation")
         return
     if plate is not None:
         _plate(ax, float(plate.min()), float(plate.max()))
@@ -102,9 +80,9 @@ def _panel(ax, density, plate) -> None:
 
 def _plate(ax, low: float, high: float) -> None:
     """Show the flat plates from the smallest to the largest area."""
-    ax.axhspan(low, high, color=GREY, alpha=BAND_ALPHA, lw=0)
+    ax.axhspan(low, high, color=style.GREY, alpha=style.BAND_ALPHA, lw=0)
     for level in (low, high):
-        ax.axhline(level, color=GREY, lw=1, ls="--")
+        ax.axhline(level, color=style.GREY, lw=1, ls="--")
     ax.text(
         0.02, high * 1.12, "flat plate", transform=ax.get_yaxis_transform(), color="0.3", fontsize=9
     )
@@ -133,14 +111,6 @@ def _label(figure, axes) -> None:
         ax.set_xlabel("frequency (Hz)")
     for ax in axes[:, 0]:
         ax.set_ylabel("modes per Hz")
-    low, high = shown[0].get_xlim()
-    value_ticks(
-        shown[0].xaxis, [f for f in (10, 20, 50, 100, 200, 500, 800, 2000) if low <= f <= high]
-    )
-    decade_ticks(shown[0].yaxis)
-    handles, labels = max(
-        (ax.get_legend_handles_labels() for ax in shown), key=lambda pair: len(pair[0])
-    )
-    figure.legend(
-        handles, labels, title="overlength", loc="outside lower center", ncols=min(8, len(labels))
-    )
+    style.value_ticks(shown[0].xaxis, (10, 20, 50, 100, 200, 500, 800, 2000))
+    style.decade_ticks(shown[0].yaxis)
+    style.legend_below(figure, shown, title="overlength")

@@ -7,22 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from foilstudy.base.reference import published
-from foilstudy.plot.style import (
-    GREY,
-    PAGE_WIDTH,
-    decade_ticks,
-    message_panel,
-    new_figure,
-    ordered_colours,
-    overlength_axis,
-    span,
-    styled,
-    thickness_label,
-)
-from foilstudy.present.statistics import SIMULATED
+from foilstudy.plot import style
 from foilstudy.present.statistics.cells import measured
+from foilstudy.present.statistics.powerlaw import SIMULATED
 
-_DARK, _LIGHT = ordered_colours(2)
+_DARK, _LIGHT = style.ordered_colours(2)
 _BOTTOM = 0.045
 """Height of the marks of values that a logarithmic axis cannot show, in axes fractions."""
 
@@ -53,28 +42,23 @@ _SERIES = (
 )
 
 
-@styled
+@style.styled
 def draw(cube):
-    """Draw one row per direction and one panel per thickness.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset
-    """
+    """Draw one row per direction and one panel per thickness."""
     directions = list(map(str, cube["direction"].values))
     thicknesses = cube["thickness"].to_numpy()
     overlengths = cube["overlength"].to_numpy()
     series = [s for s in _SERIES if _known(cube, s)]
-    figure = new_figure(min(PAGE_WIDTH, 2.2 * thicknesses.size + 2.6), 3.0 * len(directions) + 0.7)
-    axes = figure.subplots(len(directions), thicknesses.size, sharey="row", squeeze=False)
+    figure, axes = style.panel_grid(
+        len(directions), thicknesses.size, (2.2, 3.0), (2.6, 0.7), sharey="row"
+    )
     if not any(s.source.startswith("simulation pre-stressed") for s in series):
-        for ax in axes.flat:
-            message_panel(ax, "no usable realisation with a pre-stressed stiffness")
+        style.message_panel(axes, "no usable realisation with a pre-stressed stiffness")
         return figure
     for row, direction in zip(axes, directions):
         for ax, thickness in zip(row, thicknesses):
             ax.set_yscale("log")
-            overlength_axis(ax, overlengths)
+            style.overlength_axis(ax, overlengths)
             at = {"direction": direction, "thickness": thickness}
             for s in series:
                 _draw_series(ax, s, measured(cube, SIMULATED[s.source], **at), overlengths)
@@ -83,10 +67,10 @@ def draw(cube):
         # Room for the marks at the bottom, which lie in no data range.
         low, high = row[0].get_ylim()
         row[0].set_ylim(low / (high / low) ** (2 * _BOTTOM), high)
-        decade_ticks(row[0].yaxis)
+        style.decade_ticks(row[0].yaxis)
         row[0].set_ylabel(f"{direction} stiffness (N/m)")
     for ax, thickness in zip(axes[0], thicknesses):
-        ax.set_title(thickness_label(thickness))
+        ax.set_title(style.thickness_label(thickness))
     by_label = {
         label: handle
         for ax in axes.flat
@@ -142,11 +126,11 @@ def _mark_hidden(ax, overlength: float, count: int, series: _Series) -> None:
 
 def _experiment(ax, direction: str, thickness: float, overlengths) -> None:
     law = published().power_laws[direction]["experiment"].law
-    fine = np.geomspace(*span(overlengths, 1.15), 60)
+    fine = np.geomspace(*style.span(overlengths, 1.15), 60)
     ax.plot(
         fine,
         law.stiffness(fine, thickness),
-        color=GREY,
+        color=style.GREY,
         ls="-.",
         lw=1.3,
         label="published experiment (fit)",

@@ -219,12 +219,7 @@ def draw_figure(figure_id: str, files: StudyFiles, stem) -> tuple[Path, Path]:
     ----------
     figure_id
         A key of `FIGURES`.
-    files : StudyFiles
     stem : path without suffix
-
-    Returns
-    -------
-    png, svg : Path
 
     Raises
     ------
@@ -245,7 +240,6 @@ def draw_figures(figure_ids: Iterable[str], files: StudyFiles, out_dir) -> list[
     ----------
     figure_ids
         Keys of `FIGURES`.
-    files : StudyFiles
     out_dir : path of the folder
     """
     return [

@@ -2,32 +2,19 @@
 
 from __future__ import annotations
 
+from foilstudy.plot import style
 from foilstudy.plot.crumples import catalogue, typical_configuration
-from foilstudy.plot.style import (
-    message_panel,
-    new_figure,
-    overlength_label,
-    styled,
-    thickness_label,
-)
 from foilstudy.present.figures.shapes import draw_grid
 
 MOST = 6
 
 
-@styled
+@style.styled
 def draw(crumple_paths):
-    """Draw up to six realisations of the thickest foil at its middle overlength side by side.
-
-    Parameters
-    ----------
-    crumple_paths : paths of crumple.nc files
-    """
+    """Draw up to six realisations of the thickest foil at its middle overlength side by side."""
     crumples = typical_configuration(catalogue(crumple_paths))[:MOST]
     if not crumples:
-        figure = new_figure(6, 2)
-        message_panel(figure.subplots(), "no usable realisation in this study", 60)
-        return figure
+        return style.message_figure()
     columns = 3 if len(crumples) > 3 else len(crumples)
     rows = [crumples[i : i + columns] for i in range(0, len(crumples), columns)]
     figure = draw_grid(
@@ -35,8 +22,8 @@ def draw(crumple_paths):
         captions=[[f"seed {c.seed}" for c in row] for row in rows],
     )
     title = (
-        f"{thickness_label(crumples[0].thickness_um)}, "
-        f"overlength {overlength_label(crumples[0].overlength_percent)}"
+        f"{style.thickness_label(crumples[0].thickness_um)}, "
+        f"overlength {style.overlength_label(crumples[0].overlength_percent)}"
     )
     figure.suptitle(title, fontsize=11)
     return figure

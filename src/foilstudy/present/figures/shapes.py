@@ -6,7 +6,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 
 from foilstudy.base.reference import published
-from foilstudy.plot.crumples import Crumple, read_shape
+from foilstudy.plot.crumples import RecordedCrumple, read_shape
 from foilstudy.plot.render import COLOUR_MAP, View, render
 from foilstudy.plot.style import PAGE_WIDTH, message_panel, new_figure
 
@@ -23,15 +23,11 @@ def draw_grid(crumples, column_titles=None, row_titles=None, captions=None):
 
     Parameters
     ----------
-    crumples : list of lists of Crumple or None
+    crumples : list of lists of RecordedCrumple or None
         An empty place stays blank, a realisation without a shape says why.
     column_titles, row_titles : lists of str, optional
     captions : list of lists of str, optional
         Written under each shape.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
     """
     rows, columns = len(crumples), max(map(len, crumples), default=0)
     panel_width = min(_LARGEST_PANEL, (PAGE_WIDTH - _ROW_TITLE_WIDTH) / columns)
@@ -84,7 +80,7 @@ def _common_extent(pictures) -> tuple[float, float, float, float]:
     return -half, half, min(e[2] for e in extents), max(e[3] for e in extents)
 
 
-def _panel(ax, crumple: Crumple | None, pictures, extent) -> None:
+def _panel(ax, crumple: RecordedCrumple | None, pictures, extent) -> None:
     ax.set_axis_off()
     ax.set_xlim(extent[:2])
     ax.set_ylim(extent[2:])

@@ -5,21 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from foilstudy.base.reference import published
-from foilstudy.plot.style import (
-    BAND_ALPHA,
-    GREY,
-    PAGE_WIDTH,
-    decade_ticks,
-    new_figure,
-    ordered_colours,
-    overlength_axis,
-    span,
-    styled,
-    thickness_label,
-)
-from foilstudy.present.statistics import simulated_law, stiffness_summary
+from foilstudy.plot import style
+from foilstudy.present.statistics.powerlaw import simulated_law
+from foilstudy.present.statistics.summary import stiffness_summary
 
-_MINE, _LIMIT = ordered_colours(5)[1:4:2]
+_MINE, _LIMIT = style.ordered_colours(5)[1:4:2]
 _LEGEND = (
     "this study: mean, min to max",
     "this study: fit",
@@ -30,13 +20,12 @@ _LEGEND = (
 )
 
 
-@styled
+@style.styled
 def draw(cube, direction: str):
     """Draw the stiffness in one direction, one panel per thickness.
 
     Parameters
     ----------
-    cube : xarray.Dataset
     direction
         ``axial`` or ``radial``.
     """
@@ -45,28 +34,23 @@ def draw(cube, direction: str):
     fitted = simulated_law(cube, direction)
     thicknesses = cube["thickness"].to_numpy()
     overlengths = cube["overlength"].to_numpy()
-    columns = min(4, thicknesses.size)
-    rows = -(-thicknesses.size // columns)
-    figure = new_figure(min(PAGE_WIDTH, 2.0 * columns + 4.6), 3.6 * rows + 0.6)
-    axes = figure.subplots(rows, columns, sharey=True, squeeze=False).ravel()
-    fine = np.geomspace(*span(overlengths, 1.15), 60)
-    for ax, thickness in zip(axes, thicknesses):
-        ax.set_title(thickness_label(thickness))
+    figure, axes = style.wrapped_grid(thicknesses.size, 4, (2.0, 3.6), (4.6, 0.6), sharey=True)
+    fine = np.geomspace(*style.span(overlengths, 1.15), 60)
+    for ax, thickness in zip(axes.flat, thicknesses):
+        ax.set_title(style.thickness_label(thickness))
         ax.set_yscale("log")
-        overlength_axis(ax, overlengths)
+        style.overlength_axis(ax, overlengths)
         _panel(ax, table[table["thickness_um"] == thickness])
         _laws(ax, fitted.law, direction, fine, thickness)
-    for ax in axes[thicknesses.size :]:
-        ax.set_visible(False)
-    decade_ticks(axes[0].yaxis)
-    for ax in axes[::columns]:
+    style.decade_ticks(axes[0, 0].yaxis)
+    for ax in axes[:, 0]:
         ax.set_ylabel(f"{direction} stiffness (N/m)")
-    by_label = dict(zip(*axes[0].get_legend_handles_labels()[::-1]))
+    by_label = dict(zip(*axes[0, 0].get_legend_handles_labels()[::-1]))
     figure.legend(
         [by_label[label] for label in _LEGEND],
         _LEGEND,
         loc="outside lower center",
-        ncols=3 if columns > 2 else 2,
+        ncols=3 if axes.shape[1] > 2 else 2,
     )
     figure.suptitle(_law_text(fitted.fit), fontsize=10.5)
     return figure
@@ -85,7 +69,7 @@ def _panel(ax, rows) -> None:
         ms=7,
         label="uncrumpled cylinder (bound)",
     )
-    ax.fill_between(x, rows["min"], rows["max"], color=_MINE, alpha=BAND_ALPHA, lw=0)
+    ax.fill_between(x, rows["min"], rows["max"], color=_MINE, alpha=style.BAND_ALPHA, lw=0)
     ax.errorbar(
         x,
         mean,
@@ -118,13 +102,13 @@ def _laws(ax, law, direction: str, overlength, thickness: float) -> None:
     # A single overlength has no law in overlength to draw.
     fit = law.stiffness(overlength, thickness) if np.isfinite(law.beta) else overlength * np.nan
     ax.plot(overlength, fit, color=_MINE, label="this study: fit")
-    for source, style in (("simulation", "--"), ("experiment", "-.")):
+    for source, look in (("simulation", "--"), ("experiment", "-.")):
         other = published().power_laws[direction][source].law
         ax.plot(
             overlength,
             other.stiffness(overlength, thickness),
-            color="k" if source == "simulation" else GREY,
-            ls=style,
+            color="k" if source == "simulation" else style.GREY,
+            ls=look,
             lw=1.3,
             label=f"published {source} (fit)",
         )

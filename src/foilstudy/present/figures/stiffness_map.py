@@ -7,40 +7,25 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.ticker import LogLocator
 
-from foilstudy.plot.style import (
-    PAGE_WIDTH,
-    decade_ticks,
-    message_panel,
-    new_figure,
-    overlength_axis,
-    short_number,
-    span,
-    styled,
-    value_ticks,
-)
-from foilstudy.present.statistics import simulated_law, stiffness_summary
+from foilstudy.plot import style
+from foilstudy.present.statistics.powerlaw import simulated_law
+from foilstudy.present.statistics.summary import stiffness_summary
 
 _COLOUR_MAP = "cividis"
 _STEPS_PER_DECADE = 4
 
 
-@styled
+@style.styled
 def draw(cube):
-    """Draw one map per direction with a common colour scale.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset
-    """
+    """Draw one map per direction with a common colour scale."""
     table = stiffness_summary(cube)
     directions = list(map(str, cube["direction"].values))
-    figure = new_figure(PAGE_WIDTH, 4.3)
+    figure = style.new_figure(style.PAGE_WIDTH, 4.3)
     axes = figure.subplots(1, len(directions), sharey=True, squeeze=False)[0]
     mean = table["mean"].to_numpy()
     mean = mean[np.isfinite(mean)]
     if not mean.size:
-        for ax in axes:
-            message_panel(ax, "no usable realisation in this study")
+        style.message_panel(axes, "no usable realisation in this study")
         return figure
     exponents = np.log10([mean.min(), mean.max()]) * _STEPS_PER_DECADE
     first, last = int(np.floor(exponents[0])), int(np.ceil(exponents[1]))
@@ -57,9 +42,9 @@ def draw(cube):
         ax.set_title(f"{direction} stiffness")
         ax.grid(False)
         ax.set_yscale("log")
-        overlength_axis(ax, overlengths)
-        ax.set_ylim(span(thicknesses, 1.3))
-        value_ticks(ax.yaxis, thicknesses)
+        style.overlength_axis(ax, overlengths)
+        ax.set_ylim(style.span(thicknesses, 1.3))
+        style.value_ticks(ax.yaxis, thicknesses)
         _means(ax, overlengths, thicknesses, grid, levels, norm)
         _fit(ax, simulated_law(cube, direction).law, levels)
     axes[0].set_ylabel("thickness (µm)")
@@ -71,7 +56,7 @@ def draw(cube):
         aspect=28,
     )
     bar.outline.set_visible(False)
-    decade_ticks(bar.ax.yaxis)
+    style.decade_ticks(bar.ax.yaxis)
     return figure
 
 
@@ -106,4 +91,4 @@ def _fit(ax, law, levels) -> None:
     lines = ax.contour(
         x, y, stiffness, levels=decades, colors="0.15", linestyles="--", linewidths=1
     )
-    ax.clabel(lines, fmt=short_number, fontsize=8.5, inline_spacing=3)
+    ax.clabel(lines, fmt=style.short_number, fontsize=8.5, inline_spacing=3)

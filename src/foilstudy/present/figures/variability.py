@@ -4,37 +4,27 @@ from __future__ import annotations
 
 import numpy as np
 
-from foilstudy.plot.style import (
-    BAND_ALPHA,
-    PAGE_WIDTH,
-    marker,
-    message_panel,
-    new_figure,
-    ordered_colours,
-    styled,
-    thickness_label,
+from foilstudy.plot import style
+from foilstudy.present.statistics.variability import (
+    fit_variability,
+    plain_scatter,
+    variability_table,
 )
-from foilstudy.present.statistics import fit_variability, plain_scatter, variability_table
 
 
-@styled
+@style.styled
 def draw(cube):
-    """Draw one panel per direction.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset
-    """
+    """Draw one panel per direction."""
     table = plain_scatter(variability_table(cube))
     directions = list(map(str, cube["direction"].values))
     thicknesses = cube["thickness"].to_numpy()
-    figure = new_figure(PAGE_WIDTH, 4.2)
+    figure = style.new_figure(style.PAGE_WIDTH, 4.2)
     axes = figure.subplots(1, len(directions), sharey=True, squeeze=False)[0]
     for ax, direction in zip(axes, directions):
         rows = table[(table["direction"] == direction) & table["cv"].notna()]
         ax.set_title(f"{direction} stiffness")
         if rows.empty:
-            message_panel(ax, "scatter needs two usable realisations of one configuration")
+            style.message_panel(ax, "scatter needs two usable realisations of one configuration")
             continue
         _panel(ax, rows, thicknesses)
         _regression(ax, fit_variability(table, direction), rows["overlength_percent"])
@@ -44,16 +34,13 @@ def draw(cube):
         # Confidence limits of few realisations are wide: let the largest leave the figure.
         axes[0].set_ylim(0, 1.08 * max(values.max(), min(table["cv_high"].max(), 2 * values.max())))
         axes[0].set_ylabel("coefficient of variation")
-        handles, labels = next(
-            ax.get_legend_handles_labels() for ax in axes if ax.get_legend_handles_labels()[0]
-        )
-        figure.legend(handles, labels, loc="outside lower center", ncols=min(7, len(labels)))
+        style.legend_below(figure, axes, 7)
     return figure
 
 
 def _panel(ax, rows, thicknesses) -> None:
     step = 0.009 * np.ptp(rows["overlength_percent"]) or 0.3
-    for i, (thickness, colour) in enumerate(zip(thicknesses, ordered_colours(thicknesses.size))):
+    for i, (thickness, colour) in enumerate(style.coloured(thicknesses)):
         mine = rows[rows["thickness_um"] == thickness]
         if mine.empty:
             continue
@@ -64,14 +51,14 @@ def _panel(ax, rows, thicknesses) -> None:
             x,
             mine["cv"],
             yerr=[mine["cv"] - mine["cv_low"], above],
-            fmt=marker(i),
+            fmt=style.marker(i),
             color=colour,
             mec="white",
             mew=0.5,
             ms=6.5,
             elinewidth=0.9,
             alpha=0.95,
-            label=thickness_label(thickness),
+            label=style.thickness_label(thickness),
         )
 
 
@@ -82,7 +69,7 @@ def _regression(ax, fit, overlengths) -> None:
     mean, low, high = fit.predict({"overlength": x})
     ax.plot(x, mean, color="0.2", label="regression")
     if np.isfinite(low).all():
-        ax.fill_between(x, low, high, color="0.5", alpha=BAND_ALPHA, lw=0, label="95 % band")
+        ax.fill_between(x, low, high, color="0.5", alpha=style.BAND_ALPHA, lw=0, label="95 % band")
         half = 100 * (fit.high["overlength"] - fit.value["overlength"])
         text = f"slope {100 * fit.value['overlength']:+.3f} ± {half:.3f} per 100 % overlength"
         ax.text(

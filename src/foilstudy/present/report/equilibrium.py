@@ -16,7 +16,6 @@ class Settling:
 
     Attributes
     ----------
-    thickness_um : float
     cells : int
         Realisations in the sweep.
     settled : int

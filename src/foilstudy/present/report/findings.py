@@ -22,7 +22,7 @@ from foilstudy.base.reference import Published
 from foilstudy.present.report.health import Health
 from foilstudy.present.report.laws import SIGNIFICANT, Exponent
 from foilstudy.present.report.spread import Spread
-from foilstudy.present.statistics import fit_variability, plain_scatter
+from foilstudy.present.statistics.variability import fit_variability, plain_scatter
 
 
 def stiffness_findings(summary: pd.DataFrame) -> list[str]:

@@ -30,6 +30,7 @@ from foilstudy.present.report import (
     viewer,
 )
 from foilstudy.present.report.health import assess
+from foilstudy.present.statistics.tables import TABLES
 
 TEMPLATES = Path(__file__).parent / "templates"
 
@@ -46,15 +47,6 @@ SECTIONS = {
     "health": ("history",),
 }
 """Where each figure stands; one not named here follows the last of the results."""
-
-_TABLES = {
-    "powerlaw": "power laws, their uncertainty and the published ones",
-    "stiffness_summary": "static stiffness of every configuration",
-    "variability": "coefficients of variation",
-    "eigenfrequency_law": "exponents of the first eigenfrequency",
-    "isolation": "links of every configuration beside a mount",
-}
-"""Tables that the page is made from, and what they hold."""
 
 SVG_BYTES_MAX = 600_000
 """A larger vector drawing is slower to show than its picture in dots."""
@@ -119,8 +111,9 @@ def _environment() -> jinja2.Environment:
 
 def _content(files: StudyFiles, folder: Path) -> dict:
     cube = files.cube
-    tables = {name: pd.read_csv(files.table(name)) for name in _TABLES}
-    powerlaw, summary, variability, eigenfrequency, links = tables.values()
+    tables = {name: pd.read_csv(files.table(name)) for name in TABLES}
+    powerlaw, summary = tables["powerlaw"], tables["stiffness_summary"]
+    variability, eigenfrequency = tables["variability"], tables["eigenfrequency_law"]
     config = configuration(cube)
     health = assess(cube, files.benchmarks)
     settling = equilibrium.assess_equilibrium(cube, config)
@@ -147,7 +140,9 @@ def _content(files: StudyFiles, folder: Path) -> dict:
         "overlength_words": modes.overlength_findings(cube),
         "eigenfrequency_words": findings.eigenfrequency_findings(eigenfrequency, cube),
         "modal_density_words": modes.modal_density_findings(cube),
-        "isolation_words": isolation.isolation_findings(links, isolation_options(cube)),
+        "isolation_words": isolation.isolation_findings(
+            tables["isolation"], isolation_options(cube)
+        ),
         "bend_words": laws.bend_sentence(powerlaw),
         "fit_words": laws.fit_findings(powerlaw),
         "mesh": mesh_errors,
@@ -255,7 +250,7 @@ def _files(files: StudyFiles, folder: Path) -> list[tuple[str, str, str]]:
     """Links to the files that the page was made from: text, relative address, content."""
     described = [
         (files.cube_path, "all numbers of all realisations (NetCDF-4)"),
-        *((files.table(name), meaning) for name, meaning in _TABLES.items()),
+        *((files.table(name), table.title) for name, table in TABLES.items()),
         (files.figures, "the figures as PNG and SVG"),
     ]
     links = []

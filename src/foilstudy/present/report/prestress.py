@@ -12,8 +12,8 @@ from foilstudy.base.numerals import fixed, nominal, number, number_range, percen
 from foilstudy.base.reference import published
 from foilstudy.present.report.laws import DirectionLaws
 from foilstudy.present.report.spread import Spread, by_direction, by_thickness
-from foilstudy.present.statistics import SIMULATED
 from foilstudy.present.statistics.cells import measured
+from foilstudy.present.statistics.powerlaw import SIMULATED
 
 _FREE, _STRESSED = SIMULATED["simulation"], SIMULATED["simulation pre-stressed"]
 _AGAIN = SIMULATED["simulation pre-stressed refined"]
@@ -25,8 +25,6 @@ class PrestressRow:
 
     Attributes
     ----------
-    direction : str
-    thickness_um : float
     ratio : Spread
         Over the stress-free stiffness of the same shape on the same mesh.
     cv_free, cv : float
@@ -50,7 +48,6 @@ class RelaxedRow:
 
     Attributes
     ----------
-    thickness_um : float
     n : int
         Realisations that settled again.
     energy : Spread

@@ -9,8 +9,8 @@ import numpy as np
 from foilstudy.base.errors import Refusal
 from foilstudy.base.record import read_record
 from foilstudy.base.reference import published
-from foilstudy.plot.crumples import Crumple, catalogue
-from foilstudy.plot.modes import Modes, recorded_modes
+from foilstudy.plot.crumples import RecordedCrumple, catalogue
+from foilstudy.plot.modes import RecordedModes, recorded_modes
 from foilstudy.plot.render import COLOUR_MAP
 
 NODES_MAX = 40_000
@@ -24,7 +24,7 @@ _MODE_QUANTA = 127
 _COLOURS = 256
 
 
-def choose_shapes(paths: Iterable[Path]) -> list[Crumple]:
+def choose_shapes(paths: Iterable[Path]) -> list[RecordedCrumple]:
     """Choose the extremes and the middle of the sweep, one seed each.
 
     Of the configurations with a shape, thicknesses and overlengths are each thinned to first,
@@ -50,7 +50,7 @@ def choose_shapes(paths: Iterable[Path]) -> list[Crumple]:
     return chosen
 
 
-def pack_shape(shape: Crumple, modes: Modes | None = None) -> dict:
+def pack_shape(shape: RecordedCrumple, modes: RecordedModes | None = None) -> dict:
     """Quantise one shape to 16 bits per coordinate, and its modes to 8.
 
     Returns
@@ -119,31 +119,6 @@ def pack_mode(frequency: float, displacement: np.ndarray) -> dict:
     }
 
 
-def decode_mode(packed: dict, rows: int, columns: int) -> np.ndarray:
-    """Decode what `pack_mode` encoded, as the page's script does.
-
-    Returns
-    -------
-    ndarray, shape (3, rows, columns)
-        At the nodes of the shape, the largest displacement being 1.
-    """
-    quanta = np.frombuffer(base64.b64decode(packed["displacement"], validate=True), np.int8)
-    grid = np.moveaxis(quanta.reshape(packed["rows"], packed["columns"], 3), -1, 0)
-    return _on_grid(grid / _MODE_QUANTA, rows, columns)
-
-
-def decode_points(text: str, scale: float, rows: int, columns: int) -> np.ndarray:
-    """Decode what `pack_shape` encoded, as the page's script does.
-
-    Returns
-    -------
-    ndarray, shape (3, rows, columns)
-        Coordinates [m].
-    """
-    quanta = np.frombuffer(base64.b64decode(text, validate=True), dtype="<i2")
-    return np.moveaxis(quanta.reshape(rows, columns, 3), -1, 0) * scale
-
-
 def colour_table() -> np.ndarray:
     """Sample the diverging colours of the radial displacement.
 
@@ -158,7 +133,7 @@ def colour_table() -> np.ndarray:
     return np.round(255.0 * rgb).astype(np.uint8)
 
 
-def viewer_data(shapes: Sequence[Crumple], response_paths: Iterable[Path] = ()) -> dict:
+def viewer_data(shapes: Sequence[RecordedCrumple], response_paths: Iterable[Path] = ()) -> dict:
     """Collect everything that the page's script needs, JSON-ready."""
     modes = recorded_modes(shapes, response_paths)
     return {
@@ -175,7 +150,7 @@ def _ends_and_middle(values: Iterable[float]) -> list[float]:
     return sorted({ordered[0], ordered[len(ordered) // 2], ordered[-1]})
 
 
-def _label(shape: Crumple) -> str:
+def _label(shape: RecordedCrumple) -> str:
     flag = "" if shape.status == "converged" else f" ({shape.status.replace('_', ' ')})"
     return (
         f"{shape.thickness_um:g} µm, overlength {shape.overlength_percent:.3g} % "

@@ -50,7 +50,6 @@ def measured(cube, name: str, **selection):
 
     Parameters
     ----------
-    cube : xarray.Dataset
     name
         A quantity with dimensions thickness, overlength, seed and maybe others.
     selection
@@ -70,7 +69,6 @@ def good(cube, name: str, **selection):
 
     Parameters
     ----------
-    cube : xarray.Dataset
     name
         A positive quantity with dimensions thickness, overlength, seed and maybe others.
     selection
@@ -86,10 +84,6 @@ def good(cube, name: str, **selection):
 
 def relative_mesh_error(cube):
     """Return the stated mesh error of the stress-free stiffness over its mesh limit.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset
 
     Returns
     -------

@@ -28,10 +28,6 @@ def fit_eigenfrequency_law(data: Samples) -> LinearFit:
 def eigenfrequency_table(cube):
     """Return the exponent of the first eigenfrequency (rings clamped) per thickness.
 
-    Parameters
-    ----------
-    cube : xarray.Dataset
-
     Returns
     -------
     pandas.DataFrame

@@ -42,7 +42,6 @@ def link_stiffness(cube, direction: str, definition: str) -> np.ndarray:
 
     Parameters
     ----------
-    cube : xarray.Dataset
     direction
         ``axial`` or ``radial``.
     definition
@@ -62,7 +61,6 @@ def payload_transmissibility(cube, direction: str) -> dict[str, Transmissibiliti
 
     Parameters
     ----------
-    cube : xarray.Dataset
     direction
         ``axial`` or ``radial``.
 
@@ -95,7 +93,6 @@ def isolation_table(cube, definition: str = "transfer"):
 
     Parameters
     ----------
-    cube : xarray.Dataset
     definition
         Which dynamic stiffness of the links is held against the transfer stiffness of the mount.
 

@@ -24,7 +24,6 @@ class Plate:
 
     Attributes
     ----------
-    material : Material
     thickness : float or ndarray
         m.
     """

@@ -14,7 +14,6 @@ def static_spring(options: Isolation, direction: str) -> Spring:
 
     Parameters
     ----------
-    options : Isolation
     direction : str
         ``axial`` or ``radial``.
     """

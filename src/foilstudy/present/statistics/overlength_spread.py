@@ -145,7 +145,6 @@ def relative_magnitude(cube, thickness: float, direction: str) -> np.ndarray:
 
     Parameters
     ----------
-    cube : xarray.Dataset
     thickness : float
         um, a value of the coordinate.
     direction

@@ -67,7 +67,6 @@ def simulated_law(cube, direction: str, source: str = "simulation") -> FittedLaw
 
     Parameters
     ----------
-    cube : xarray.Dataset
     direction
         ``axial`` or ``radial``.
     source
@@ -94,14 +93,6 @@ def powerlaw_table(cube):
     residuals of one configuration to be alike, which ``lack_of_fit_p`` tests. Only positive
     values have a logarithm: ``note`` says how many others were left out. Published rows carry the
     published standard deviation, with a normal 95 % interval.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset
-
-    Returns
-    -------
-    pandas.DataFrame
     """
     import pandas as pd
 

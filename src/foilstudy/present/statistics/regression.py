@@ -22,7 +22,6 @@ class LinearFit:
     value, std_error, low, high : mapping of name to float
         Coefficients (the constant is called ``constant``), standard errors and 95 % confidence
         limits from Student's t distribution.
-    r2, residual_std : float
     n : int
         Number of samples.
     residuals, fitted : ndarray, shape (n,)

@@ -14,10 +14,6 @@ _STIFFNESSES = ("static_stiffness", "static_stiffness_free", "static_stiffness_c
 def stiffness_summary(cube):
     """Return mean, scatter and comparison with the published fits per configuration.
 
-    Parameters
-    ----------
-    cube : xarray.Dataset
-
     Returns
     -------
     pandas.DataFrame

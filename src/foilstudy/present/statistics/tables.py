@@ -1,25 +1,71 @@
-"""The tables of a study as CSV files."""
+"""The tables of a study as CSV files: a list that is cheap to import, and what writes them."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 
 from foilstudy.base.files import written_whole
-from foilstudy.present.statistics.eigenfrequency import eigenfrequency_table
-from foilstudy.present.statistics.isolation import isolation_table
-from foilstudy.present.statistics.powerlaw import powerlaw_table
-from foilstudy.present.statistics.summary import stiffness_summary
-from foilstudy.present.statistics.variability import variability_law_table, variability_table
+from foilstudy.base.registry import Choice
+
+
+@dataclass(frozen=True)
+class TableSpec(Choice):
+    """One table of a study: a function of the cube that returns a data frame.
+
+    Attributes
+    ----------
+    place, words : str
+        The function, and the caption in full sentences.
+    title : str
+        What it holds, for a list of files.
+    """
+
+    title: str
+
 
 TABLES = {
-    "powerlaw": powerlaw_table,
-    "stiffness_summary": stiffness_summary,
-    "variability": variability_table,
-    "variability_law": variability_law_table,
-    "eigenfrequency_law": eigenfrequency_table,
-    "isolation": isolation_table,
+    "powerlaw": TableSpec(
+        "present.statistics.powerlaw:powerlaw_table",
+        "Least-squares fit of ln k = alpha + beta ln(overlength / %) + gamma ln(thickness / um) to "
+        "the axial and the radial stiffness k in N/m, with standard errors, 95 % intervals and R2: "
+        "on the crumpled mesh, in the mesh limit, and with the stress left in; beside them the "
+        "published fits to simulation and to experiment.",
+        "power laws, their uncertainty and the published ones",
+    ),
+    "stiffness_summary": TableSpec(
+        "present.statistics.summary:stiffness_summary",
+        "Static stiffness of every configuration over its realisations, on the crumpled mesh and "
+        "in the mesh limit, with the stated mesh error.",
+        "static stiffness of every configuration",
+    ),
+    "variability": TableSpec(
+        "present.statistics.variability:variability_table",
+        "Coefficient of variation (standard deviation over mean) over the realisations of every "
+        "configuration, of the stiffness on the crumpled mesh, in the mesh limit and with the "
+        "stress left in.",
+        "coefficients of variation",
+    ),
+    "variability_law": TableSpec(
+        "present.statistics.variability:variability_law_table",
+        "Linear regression of the coefficient of variation on the overlength, per direction.",
+        "coefficient of variation against overlength",
+    ),
+    "eigenfrequency_law": TableSpec(
+        "present.statistics.eigenfrequency:eigenfrequency_table",
+        "First eigenfrequency with both rings clamped, as a power of the reference height, for "
+        "each thickness; beside it the published exponents.",
+        "exponents of the first eigenfrequency",
+    ),
+    "isolation": TableSpec(
+        "present.statistics.isolation:isolation_table",
+        "How far up in frequency the transfer stiffness of the foil links of each configuration "
+        "stays within the allowed share of the mount's, for a mount without mass and for one with "
+        "a resonance of its own: median and least favourable realisation, and the static share.",
+        "links of every configuration beside a mount",
+    ),
 }
-"""File stem of each table and the function of the cube that makes it."""
+"""By file stem."""
 
 
 def write_tables(cube, out_dir) -> list[Path]:
@@ -27,7 +73,6 @@ def write_tables(cube, out_dir) -> list[Path]:
 
     Parameters
     ----------
-    cube : xarray.Dataset
     out_dir : folder for the tables, made if missing
 
     Returns
@@ -39,6 +84,7 @@ def write_tables(cube, out_dir) -> list[Path]:
     for name, table in TABLES.items():
         path = Path(out_dir) / f"{name}.csv"
         with written_whole(path) as partial:
-            table(cube).to_csv(partial, index=False, float_format="%.6g", lineterminator="\n")
+            frame = table.load()(cube)
+            frame.to_csv(partial, index=False, float_format="%.6g", lineterminator="\n")
         paths.append(path)
     return paths

@@ -59,10 +59,6 @@ def coefficient_of_variation_interval(cv: float, n: int) -> tuple[float, float]:
 def variability_table(cube):
     """Return the coefficient of variation of every quantity, configuration and direction.
 
-    Parameters
-    ----------
-    cube : xarray.Dataset
-
     Returns
     -------
     pandas.DataFrame
@@ -133,10 +129,6 @@ def variability_law_table(cube):
     """Return the regression of the coefficient of variation on the overlength per direction.
 
     It is that of the stress-free stiffness on the crumpled mesh.
-
-    Parameters
-    ----------
-    cube : xarray.Dataset
 
     Returns
     -------

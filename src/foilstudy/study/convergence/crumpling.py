@@ -17,8 +17,7 @@ from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.solve.equilibrium.settle import SettleOptions
 from foilstudy.solve.paths.relaxation import RelaxationPath
-from foilstudy.study.convergence.plan import DIAMETER_MM, GAP_HEIGHT_MM, Case
-from foilstudy.study.foils import FEP
+from foilstudy.study.published import CrumpleCase, foil
 
 RAMP_STEPS = 2000
 STEPS_MAX = 100_000
@@ -30,22 +29,19 @@ _REFINEMENTS_MAX = 2
 """How far a crumpled shape is refined for the mesh limit of its stiffness; size in m."""
 
 
-def recipe(case: Case) -> tuple[Foil, Mesh, Imperfection, Method]:
+def recipe(case: CrumpleCase) -> tuple[Foil, Mesh, Imperfection, Method]:
     """What `crumple` needs for a case: the published foil, the same imperfection on every mesh."""
-    foil = Foil(
-        DIAMETER_MM * 1e-3, case.height_mm * 1e-3, GAP_HEIGHT_MM * 1e-3, case.thickness_um * 1e-6,
-        FEP,
-    )  # fmt: skip
     imperfection = Imperfection("smoothed", _AMPLITUDE, _CORRELATION, case.seed)
-    return foil, Mesh(case.size_mm * 1e-3, case.element), imperfection, METHOD
+    mesh = Mesh(case.size_mm * 1e-3, case.element)
+    return foil(case.thickness_um, case.height_mm), mesh, imperfection, METHOD
 
 
-def imperfect(case: Case) -> Crumpled:
+def imperfect(case: CrumpleCase) -> Crumpled:
     """The uncrumpled foil of a case."""
     return uncrumpled(*recipe(case))
 
 
-def settled(case: Case) -> tuple[Crumpled, dict]:
+def settled(case: CrumpleCase) -> tuple[Crumpled, dict]:
     """Crumple a case to a stable equilibrium; the shape and how it was reached."""
     crumpled = crumple(*recipe(case))
     return crumpled, _reached(crumpled, RAMP_STEPS)
@@ -116,7 +112,7 @@ def _refinements(crumpled: Crumpled) -> int:
     return max(0, min(halvings, _REFINEMENTS_MAX))
 
 
-def run(case: Case) -> dict:
+def run(case: CrumpleCase) -> dict:
     """Crumple and measure a case; every number of it."""
     crumpled, numbers = settled(case)
     if numbers["status"] != "diverged":
@@ -124,7 +120,7 @@ def run(case: Case) -> dict:
     return numbers
 
 
-def run_levels(case: Case) -> list[dict]:
+def run_levels(case: CrumpleCase) -> list[dict]:
     """Crumple a case, then refine and relax it again to the finest size."""
     crumpled, numbers = settled(case)
     levels = [numbers | measured(crumpled)]

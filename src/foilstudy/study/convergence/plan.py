@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-from foilstudy.study.kernel import Lazy, Part, Study
+from foilstudy.study.kernel.plan import Lazy, Part, Study, results
+from foilstudy.study.published import HEIGHT_MM, THICKNESSES_UM, CrumpleCase
 
 SIZES_MM = (7.0, 5.0, 4.0, 2.5, 1.25)
-THICKNESSES_UM = (500, 50)
-HEIGHT_MM = 170
 SEEDS, FINEST_SEEDS = (0, 1, 2), (0, 1)
-DIAMETER_MM, GAP_HEIGHT_MM = 200, 130
 ONE_POINT_SIZE_MIN_MM = 2.5
 """The published kind of element, for comparison, is left out on the finest mesh."""
 TALL_HEIGHT_MM = 250
@@ -18,46 +14,24 @@ TALL_HEIGHT_MM = 250
 FINEST_MM = min(SIZES_MM)
 
 
-@dataclass(frozen=True)
-class Case:
-    """One crumple of the study.
-
-    Attributes
-    ----------
-    element : str
-        Key of `foilstudy.model.shell.elements.ELEMENTS`.
-    thickness_um, height_mm : int
-        Of the foil and of the uncrumpled cylinder.
-    size_mm : float
-        Element size asked for.
-    seed : int
-    """
-
-    element: str
-    thickness_um: int
-    height_mm: int
-    size_mm: float
-    seed: int
-
-
-def crumples() -> tuple[Case, ...]:
+def crumples() -> tuple[CrumpleCase, ...]:
     """Every crumple on a mesh of its own."""
     cases = [
-        Case(element, thickness, HEIGHT_MM, size, seed)
+        CrumpleCase(element, thickness, HEIGHT_MM, size, seed)
         for element in ("corner", "one_point")
         for thickness in THICKNESSES_UM
         for size in SIZES_MM
         for seed in (SEEDS if size > FINEST_MM else FINEST_SEEDS)
         if element == "corner" or size >= ONE_POINT_SIZE_MIN_MM
     ]
-    return (*cases, Case("corner", 50, TALL_HEIGHT_MM, FINEST_MM, 0))
+    return (*cases, CrumpleCase("corner", 50, TALL_HEIGHT_MM, FINEST_MM, 0))
 
 
-MULTILEVEL = tuple(Case("corner", t, HEIGHT_MM, 5.0, 0) for t in THICKNESSES_UM)
+MULTILEVEL = tuple(CrumpleCase("corner", t, HEIGHT_MM, 5.0, 0) for t in THICKNESSES_UM)
 """Crumpled at 5 mm, then refined and relaxed again down to 1.25 mm."""
 
 STOPPED = tuple(
-    Case("corner", t, height, 5.0, seed)
+    CrumpleCase("corner", t, height, 5.0, seed)
     for t in THICKNESSES_UM
     for height in (150, 200)
     for seed in (0, 1)
@@ -85,7 +59,7 @@ STUDY = Study(
         # Last, when the machine is emptier: the least of several times, but shared caches count.
         Part("timing", ("steps",), Lazy(f"{_HERE}.timing:run_timing"), priority=-1),
     ),
-    findings=Lazy(f"{_HERE}.records:Findings.of"),
+    findings=results,
     tables={
         "convergence.csv": Lazy(f"{_HERE}.tables:crumples"),
         "stops.csv": Lazy(f"{_HERE}.tables:stops"),

@@ -12,10 +12,11 @@ from foilstudy.solve.equilibrium.settle import HeldSheet, stopped_at
 from foilstudy.solve.problem import Problem
 from foilstudy.solve.relaxation import Ramp, Scheme, StoppingRule, relax
 from foilstudy.study.convergence.crumpling import RAMP_STEPS, STEPS_MAX, imperfect, prestressed
-from foilstudy.study.convergence.plan import STOPS, Case
+from foilstudy.study.convergence.plan import STOPS
+from foilstudy.study.published import CrumpleCase
 
 
-def run_stops(case: Case) -> list[dict]:
+def run_stops(case: CrumpleCase) -> list[dict]:
     """Crumple a case and measure it at every residual of the plan that it reaches."""
     start = imperfect(case)
     problem = Problem(start.stressed)

@@ -10,7 +10,9 @@ from foilstudy.base.reference import EXPLICIT_CODE_ENERGIES, published
 from foilstudy.base.tables import markdown_table
 from foilstudy.study.convergence import plan
 from foilstudy.study.convergence.analysis import fit, means, slope
-from foilstudy.study.convergence.records import Findings
+from foilstudy.study.convergence.records import ensemble
+from foilstudy.study.kernel.plan import Results
+from foilstudy.study.published import HEIGHT_MM, THICKNESSES_UM
 
 _COLUMNS = (
     "size_mm", "elements", "status", "strain_energy", "membrane_energy", "bending_energy",
@@ -24,10 +26,10 @@ _STOP_COLUMNS = ("residual", "strain_energy", "negative_eigenvalues", "static_st
                  "prestressed_stiffness")  # fmt: skip
 
 
-def crumples(study: Findings) -> list[dict]:
+def crumples(study: Results) -> list[dict]:
     """One row per crumple and per level of the refined ones; J, N/m, s, MB."""
-    found = [("own mesh", case, record) for case, record in study.crumples.items()]
-    for case, levels in study.levels.items():
+    found = [("own mesh", case, record) for case, record in study["crumples"].items()]
+    for case, levels in study["levels"].items():
         found += [(f"refined {record['level']} times", case, record) for record in levels]
     rows = []
     for path, case, record in found:
@@ -37,13 +39,13 @@ def crumples(study: Findings) -> list[dict]:
     return rows
 
 
-def stops(study: Findings) -> list[dict]:
+def stops(study: Results) -> list[dict]:
     """One row per crumple and residual at which it was stopped; J, N/m."""
     return [
         {"element": case.element, "thickness_um": case.thickness_um}
         | {"height_mm": case.height_mm, "seed": case.seed}
         | _cells(record, _STOP_COLUMNS)
-        for case, records in study.stops.items()
+        for case, records in study["stops"].items()
         for record in records
     ]
 
@@ -60,14 +62,14 @@ def _cells(record: dict, columns: Iterable[str]) -> dict:
     return cells
 
 
-def page(study: Findings) -> str:
+def page(study: Results) -> str:
     """What the study found, in Markdown."""
-    parts = [_ensembles(study, thickness) for thickness in plan.THICKNESSES_UM]
+    parts = [_ensembles(study, thickness) for thickness in THICKNESSES_UM]
     parts += [_explicit_code(), _levels(study), _tall(study), _timing(study)]
     return "\n".join(parts)
 
 
-def _ensembles(study: Findings, thickness_um: int) -> str:
+def _ensembles(study: Results, thickness_um: int) -> str:
     heads = [
         "element", "size, mm", "converged", "energy, J", "stabilisation", "axial, N/m",
         "axial limit", "radial, N/m", "radial limit", "pre-stressed axial", "radial", "steps",
@@ -77,12 +79,12 @@ def _ensembles(study: Findings, thickness_um: int) -> str:
         row for element in ("corner", "one_point") for row in _rows(study, thickness_um, element)
     ]
     lines = [
-        f"## {thickness_um} um, h_ref {plan.HEIGHT_MM} mm, each crumple on a mesh of its own\n",
+        f"## {thickness_um} um, h_ref {HEIGHT_MM} mm, each crumple on a mesh of its own\n",
         "Mean of the converged seeds and its standard error (scatter pooled over the sizes).\n",
         markdown_table(heads, rows).rstrip("\n"),
     ]
     for element in ("corner", "one_point"):
-        fitted = fit(study.ensemble("strain_energy", thickness_um, element))
+        fitted = fit(ensemble(study, "strain_energy", thickness_um, element))
         lines.append(
             f"\nEnergy by the {element} element at size zero: {fitted.limit:.3g} +- "
             f"{fitted.limit_error:.1g} J, order {fitted.order:.1f} +- {fitted.order_error:.1f}."
@@ -90,17 +92,17 @@ def _ensembles(study: Findings, thickness_um: int) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _rows(study: Findings, thickness_um: int, element: str) -> Iterable[list[str]]:
+def _rows(study: Results, thickness_um: int, element: str) -> Iterable[list[str]]:
     def pick(key, index=None):
-        return study.ensemble(key, thickness_um, element, index)
+        return ensemble(study, key, thickness_um, element, index)
 
     energy, share = pick("strain_energy"), pick("stabilisation_energy")
     sizes, mean, error = means(energy)
     for k, size in enumerate(sizes):
         asked = [
-            c for c in study.crumples
+            c for c in study["crumples"]
             if (c.element, c.thickness_um, c.size_mm, c.height_mm)
-            == (element, thickness_um, size, plan.HEIGHT_MM)
+            == (element, thickness_um, size, HEIGHT_MM)
         ]  # fmt: skip
         numbers = [
             f"{np.mean(pick(key, direction)[size]):.4g}"
@@ -126,13 +128,13 @@ def _explicit_code() -> str:
     return f"Another code, with the published kind of element (QEPH), 500 um: {energies}.\n"
 
 
-def _levels(study: Findings) -> str:
+def _levels(study: Results) -> str:
     heads = [
         "thickness, um", "size, mm", "energy, J", "stabilisation", "axial, radial, N/m",
         "pre-stressed", "residual", "negative", "steps", "tangents", "CPU, s", "GB",
     ]  # fmt: skip
     rows = []
-    for case, levels in study.levels.items():
+    for case, levels in study["levels"].items():
         for record in levels:
             cpu = record.get("cpu_seconds_relaxing", 0.0) + record.get("cpu_seconds_settling", 0.0)
             share = record["stabilisation_energy"] / record["strain_energy"]
@@ -152,8 +154,8 @@ def _pair(values) -> str:
     return ", ".join(f"{value:.4g}" for value in values)
 
 
-def _tall(study: Findings) -> str:
-    (record,) = [r for c, r in study.crumples.items() if c.height_mm == plan.TALL_HEIGHT_MM]
+def _tall(study: Results) -> str:
+    (record,) = [r for c, r in study["crumples"].items() if c.height_mm == plan.TALL_HEIGHT_MM]
     seconds = record["cpu_seconds_relaxing"] + record.get("cpu_seconds_settling", 0.0)
     return (
         f"## {plan.FINEST_MM:g} mm, 50 um, h_ref {plan.TALL_HEIGHT_MM} mm\n\n"
@@ -165,11 +167,11 @@ def _tall(study: Findings) -> str:
     )
 
 
-def _timing(study: Findings) -> str:
+def _timing(study: Results) -> str:
     lines = ["## Time of a step against element size\n"]
     exponents = published().run_time_exponents
-    for thickness in plan.THICKNESSES_UM:
-        rows = [row for row in study.timing if row["thickness_um"] == thickness]
+    for thickness in THICKNESSES_UM:
+        rows = [row for row in study["timing"]["steps"] if row["thickness_um"] == thickness]
         exponent, error = slope(
             np.array([row["size_mm"] for row in rows]),
             np.array([row["seconds_per_step"] for row in rows]),

@@ -9,7 +9,8 @@ import numpy as np
 from foilstudy.solve.problem import Problem
 from foilstudy.solve.relaxation import Ramp, Scheme, StoppingRule, relax
 from foilstudy.study.convergence.crumpling import imperfect
-from foilstudy.study.convergence.plan import HEIGHT_MM, SIZES_MM, THICKNESSES_UM, Case
+from foilstudy.study.convergence.plan import SIZES_MM
+from foilstudy.study.published import HEIGHT_MM, THICKNESSES_UM, CrumpleCase
 
 _STEPS, _REPEATS = 100, 7
 
@@ -24,7 +25,7 @@ def run_timing(_: str) -> list[dict]:
 
 
 def _timed(thickness_um: int, size_mm: float) -> dict:
-    start = imperfect(Case("corner", thickness_um, HEIGHT_MM, size_mm, 0))
+    start = imperfect(CrumpleCase("corner", thickness_um, HEIGHT_MM, size_mm, 0))
     problem, scheme, patch = Problem(start.stressed), Scheme(), start.patch
     # as far as the sheet buckles, lest numbers too small for normal floats slow the first steps
     ramp = Ramp(0.1 * start.foil.shortening, _STEPS)

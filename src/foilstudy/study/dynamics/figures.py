@@ -8,7 +8,9 @@ from foilstudy.plot.mac import ModeLabels, draw_mac
 from foilstudy.plot.style import GREY, PAGE_WIDTH, decade_ticks, new_figure, styled, value_ticks
 from foilstudy.study.dynamics import plan
 from foilstudy.study.dynamics.measure import mode_correlation
-from foilstudy.study.dynamics.records import METHODS, Findings
+from foilstudy.study.dynamics.records import METHODS, succeeded
+from foilstudy.study.kernel.plan import Results
+from foilstudy.study.published import HEIGHT_MM, THICKNESSES_UM
 
 _COLOURS = dict(zip(METHODS, ("0.6", "#4c72b0", "#c44e52", "#222222"), strict=True))
 _MARKERS = dict(zip(METHODS, "sv^o", strict=True))
@@ -22,12 +24,13 @@ def _tolerance(ax) -> None:
 
 
 @styled
-def cutoff(study: Findings):
+def cutoff(study: Results):
     """Largest error in the band against the cut-off, for the methods that have one."""
     figure = new_figure(PAGE_WIDTH, 4.2)
-    for ax, thickness in zip(figure.subplots(1, 2, sharey=True), plan.THICKNESSES_UM, strict=True):
+    for ax, thickness in zip(figure.subplots(1, 2, sharey=True), THICKNESSES_UM, strict=True):
         for method in ("craig_bampton", "hintz_herting"):
-            rows = sorted(study.rows(plan.Model(thickness), method), key=lambda row: row.order)
+            rows = succeeded(study, plan.Model(thickness), method)
+            rows.sort(key=lambda row: row.order)
             ratio = [row.order / plan.HIGHEST_HZ for row in rows]
             style = {"color": _COLOURS[method], "marker": _MARKERS[method], "ms": 5}
             ax.plot(ratio, [row.error for row in rows], label=METHODS[method], **style)
@@ -40,22 +43,22 @@ def cutoff(study: Findings):
         _tolerance(ax)
         ax.set_yscale("log")
         ax.set_xlabel("cut-off over highest frequency, 800 Hz")
-        ax.set_title(f"{thickness} µm, {plan.HEIGHT_MM} mm, 5 mm elements")
+        ax.set_title(f"{thickness} µm, {HEIGHT_MM} mm, 5 mm elements")
     figure.axes[0].set_ylabel("largest relative error, 3 to 800 Hz")
     figure.axes[0].legend(fontsize=8.5)
     return figure
 
 
 @styled
-def cost(study: Findings):
+def cost(study: Results):
     """Largest error in the band against processor time, all methods and meshes."""
     figure = new_figure(PAGE_WIDTH, 7.2)
     panels = figure.subplots(2, 3, sharey=True)
-    for axes, thickness in zip(panels, plan.THICKNESSES_UM, strict=True):
+    for axes, thickness in zip(panels, THICKNESSES_UM, strict=True):
         for ax, refinements in zip(axes, (0, 1, 2), strict=True):
             model = plan.Model(thickness, refinements=refinements)
             for method, label in METHODS.items():
-                rows = sorted(study.rows(model, method), key=lambda row: row.size)
+                rows = sorted(succeeded(study, model, method), key=lambda row: row.size)
                 ax.plot(
                     [row.seconds for row in rows], [row.error for row in rows], lw=1.0, ms=5,
                     color=_COLOURS[method], marker=_MARKERS[method], label=label,
@@ -64,7 +67,7 @@ def cost(study: Findings):
             ax.set_xscale("log")
             ax.set_yscale("log")
             decade_ticks(ax.xaxis)
-            chart = study.charts[model]
+            chart = study["charts"][model]
             damping = chart["damping"].removesuffix("Damping").lower()
             ax.set_title(
                 f"{thickness} µm, {model.size_mm:g} mm: {chart['unknowns']:,} unknowns,\n"
@@ -79,15 +82,15 @@ def cost(study: Findings):
 
 
 @styled
-def frequency(study: Findings):
+def frequency(study: Results):
     """Error against frequency with the published cut-off and the default tolerance."""
     figure = new_figure(PAGE_WIDTH, 7.2)
     panels = figure.subplots(2, 2, sharex=True, sharey=True)
     for axes, prestressed in zip(panels, (False, True), strict=True):
-        for ax, thickness in zip(axes, plan.THICKNESSES_UM, strict=True):
+        for ax, thickness in zip(axes, THICKNESSES_UM, strict=True):
             model = plan.Model(thickness, prestressed=prestressed)
-            frequencies = study.charts[model]["frequencies"]
-            for row in study.rows(model):
+            frequencies = study["charts"][model]["frequencies"]
+            for row in succeeded(study, model):
                 if row.order in (0.0, 1000.0, 1e-3):
                     ax.plot(
                         frequencies, row.errors.max(axis=0), lw=1.2, ms=5,
@@ -109,18 +112,18 @@ def frequency(study: Findings):
 
 
 @styled
-def mac(study: Findings):
+def mac(study: Results):
     """Clamped modes: of two reductions, and of the same shape on two meshes."""
     figure = new_figure(1.4 * PAGE_WIDTH, 1.4 * PAGE_WIDTH)
     panels = figure.subplots(2, 2)
-    for axes, thickness in zip(panels, plan.THICKNESSES_UM, strict=True):
-        coarse = study.charts[plan.Model(thickness)]["modes"]
-        fine = study.charts[plan.Model(thickness, refinements=2)]["modes"]["rational_krylov"]
+    for axes, thickness in zip(panels, THICKNESSES_UM, strict=True):
+        coarse = study["charts"][plan.Model(thickness)]["modes"]
+        fine = study["charts"][plan.Model(thickness, refinements=2)]["modes"]["rational_krylov"]
         ours = coarse["rational_krylov"]
         _correlation(axes[0], ours, coarse["hintz_herting"], ("Krylov", "Hintz-Herting"))
         _correlation(axes[1], ours, fine, ("5 mm", "1.25 mm"))
         for ax in axes:
-            ax.set_title(f"{thickness} µm, {plan.HEIGHT_MM} mm")
+            ax.set_title(f"{thickness} µm, {HEIGHT_MM} mm")
     return figure
 
 

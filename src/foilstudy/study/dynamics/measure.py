@@ -28,7 +28,10 @@ from foilstudy.measure.dynamics import (
     relative_error,
 )
 from foilstudy.measure.dynamics.mac import mac
+from foilstudy.pipeline.crumpled import Crumpled
+from foilstudy.pipeline.structures import prestressed_structure, stress_free_structure
 from foilstudy.pipeline.vibration import surface_modes
+from foilstudy.study.convergence.crumpling import imperfect, settled
 from foilstudy.study.dynamics.plan import (
     CUTOFFS_HZ,
     HIGHEST_HZ,
@@ -37,20 +40,46 @@ from foilstudy.study.dynamics.plan import (
     RATIO,
     TOLERANCES,
     Model,
-    Shape,
 )
-from foilstudy.study.dynamics.shapes import crumple_of, structure_of
-from foilstudy.study.kernel import Record
+from foilstudy.study.kernel.plan import Record
+from foilstudy.study.published import CrumpleCase
 
 _FREQUENCIES = np.array([3.0, 10.0, 30.0, 100.0, 200.0, 300.0, 400.0, 500.0, 600.0, 700.0, 800.0])
 _ON_FINE_MESHES = np.array([30.0, 100.0, 300.0, 600.0, 800.0])
 
 
-def chart(model: Model, shapes: Mapping[Shape, Record]) -> dict:
+def crumple_shape(case: CrumpleCase) -> dict:
+    """Crumple a foil: its control points, and how they were reached.
+
+    Raises
+    ------
+    RuntimeError
+        If it does not come to a stable equilibrium.
+    """
+    crumple, numbers = settled(case)
+    if numbers["status"] != "converged":
+        raise RuntimeError(f"{case} did not settle: {numbers['message']}")
+    return numbers | {"points": crumple.points}
+
+
+def crumple_of(model: Model, shapes: Mapping[CrumpleCase, Record]) -> Crumpled:
+    """The crumple of a model on the mesh of that model."""
+    points = shapes[model.crumple].result["points"]
+    crumple = replace(imperfect(model.crumple), points=points)
+    for _ in range(model.refinements):
+        crumple = crumple.refined()
+    return crumple
+
+
+def _structure(model: Model, crumple: Crumpled) -> Structure:
+    return (prestressed_structure if model.prestressed else stress_free_structure)(crumple)
+
+
+def chart(model: Model, shapes: Mapping[CrumpleCase, Record]) -> dict:
     """Every reduction of a model at every order of the plan."""
     crumple = crumple_of(model, shapes)
     with measured() as static:
-        structure = structure_of(model, crumple)
+        structure = _structure(model, crumple)
     # modal damping needs 34 real factorisations more, and a stress-free structure
     fine = model.refinements == 2
     by_modes = not (model.prestressed or fine)
@@ -129,12 +158,12 @@ def mode_correlation(first: dict, second: dict) -> np.ndarray:
     return mac(*(np.array(modes["shapes"], float).T for modes in (first, second)))
 
 
-def check(model: Model, shapes: Mapping[Shape, Record]) -> dict:
+def check(model: Model, shapes: Mapping[CrumpleCase, Record]) -> dict:
     """The default reduction of a model against the full order, with its cost."""
     crumple = crumple_of(model, shapes)
     damping, wanted = ModalDamping(RATIO), Wanted()
     with measured() as cost:
-        structure = structure_of(model, crumple)
+        structure = _structure(model, crumple)
         reduced = RationalKrylov(wanted).reduce(structure)
         grid = frequency_grid(wanted.lowest_hz, wanted.highest_hz, 200)
         dynamic_stiffness(reduced, grid, damping)

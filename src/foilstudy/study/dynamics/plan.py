@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from foilstudy.study.kernel import Lazy, Part, Study
+from foilstudy.study.kernel.plan import Lazy, Part, Study, results
+from foilstudy.study.published import HEIGHT_MM, THICKNESSES_UM, CrumpleCase
 
-THICKNESSES_UM = (500, 50)
-HEIGHT_MM = 170
 CRUMPLED_MM = 5.0
 HIGHEST_HZ = 800.0
 RATIO = 0.05
@@ -17,23 +16,13 @@ MODES = 10
 
 
 @dataclass(frozen=True)
-class Shape:
-    """A crumple on the mesh of 5 mm."""
-
-    thickness_um: int
-    height_mm: int
-
-
-@dataclass(frozen=True)
 class Model:
     """One crumple on one mesh, free of stress or stressed.
 
     Attributes
     ----------
-    thickness_um, height_mm : int
     refinements : int
         Exact refinements of the mesh of 5 mm that was crumpled.
-    prestressed : bool
     """
 
     thickness_um: int
@@ -47,9 +36,9 @@ class Model:
         return CRUMPLED_MM / 2**self.refinements
 
     @property
-    def shape(self) -> Shape:
-        """The crumple it is made of."""
-        return Shape(self.thickness_um, self.height_mm)
+    def crumple(self) -> CrumpleCase:
+        """What it is made of, on the mesh of 5 mm."""
+        return CrumpleCase("corner", self.thickness_um, self.height_mm, CRUMPLED_MM, 0)
 
 
 CHARTED = (
@@ -73,7 +62,7 @@ MODAL_REFINEMENTS_MAX = {50: 0, 500: 2}
 meshes that their search took more than ten minutes at 2.5 mm, and 18 GB of memory at 1.25 mm."""
 
 _HERE = "foilstudy.study.dynamics"
-_NEEDS = {"shapes": lambda model: [model.shape]}
+_NEEDS = {"shapes": lambda model: [model.crumple]}
 # the modes count on the finest mesh
 _MEMORY_MB = {0: 1500, 1: 3000, 2: 8000}
 
@@ -83,8 +72,8 @@ STUDY = Study(
     parts=(
         Part(
             "shapes",
-            tuple(dict.fromkeys(model.shape for model in (*CHARTED, *CHECKED))),
-            Lazy(f"{_HERE}.shapes:crumple_shape"),
+            tuple(dict.fromkeys(model.crumple for model in (*CHARTED, *CHECKED))),
+            Lazy(f"{_HERE}.measure:crumple_shape"),
             arrays=("points",),
         ),
         Part(
@@ -96,7 +85,7 @@ STUDY = Study(
         ),
         Part("checks", CHECKED, Lazy(f"{_HERE}.measure:check"), needs=_NEEDS, memory_mb=1500),
     ),
-    findings=Lazy(f"{_HERE}.records:Findings.of"),
+    findings=results,
     tables={
         "reductions.csv": Lazy(f"{_HERE}.tables:reductions"),
         "checks.csv": Lazy(f"{_HERE}.tables:checks"),

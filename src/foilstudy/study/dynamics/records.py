@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foilstudy.study.dynamics import plan
-from foilstudy.study.kernel.files import Records
+from foilstudy.study.dynamics.plan import Model
+from foilstudy.study.kernel.plan import Results
 
 METHODS = {
     "guyan": "Guyan",
@@ -52,35 +52,11 @@ class Row:
         return float(self.errors.max())
 
 
-@dataclass(frozen=True)
-class Findings:
-    """All results.
-
-    Attributes
-    ----------
-    charts : dict of Model to dict
-        See `measure.chart`.
-    checks : dict of Model to dict
-        See `measure.check`.
-    """
-
-    charts: dict[plan.Model, dict]
-    checks: dict[plan.Model, dict]
-
-    @classmethod
-    def of(cls, records: Records) -> Findings:
-        """From the records of a run."""
-        results = (
-            {model: record.result for model, record in records[part].items()}
-            for part in ("charts", "checks")
-        )
-        return cls(*results)
-
-    def rows(self, model: plan.Model, method: str | None = None) -> list[Row]:
-        """Reductions of a model that succeeded, all or of one method, by rising cost."""
-        rows = [
-            Row(**(row | {"errors": np.array([list(e) for e in row["errors"]], float)}))
-            for row in self.charts[model]["rows"]
-            if "failed" not in row and method in (None, row["method"])
-        ]
-        return sorted(rows, key=lambda row: row.seconds)
+def succeeded(study: Results, model: Model, method: str | None = None) -> list[Row]:
+    """Reductions of a model that succeeded, all or of one method, by rising cost."""
+    found = [
+        Row(**(row | {"errors": np.array([list(e) for e in row["errors"]], float)}))
+        for row in study["charts"][model]["rows"]
+        if "failed" not in row and method in (None, row["method"])
+    ]
+    return sorted(found, key=lambda row: row.seconds)

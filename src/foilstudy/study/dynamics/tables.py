@@ -7,12 +7,13 @@ from operator import itemgetter
 from foilstudy.base.tables import markdown_table
 from foilstudy.measure.dynamics.response import DEFINITIONS
 from foilstudy.study.dynamics.plan import CHECKED, HIGHEST_HZ, Model
-from foilstudy.study.dynamics.records import METHODS, Findings
+from foilstudy.study.dynamics.records import METHODS, succeeded
+from foilstudy.study.kernel.plan import Results
 
 _DIRECT_FREQUENCIES = 200
 
 
-def reductions(study: Findings) -> list[dict]:
+def reductions(study: Results) -> list[dict]:
     """Every reduction: one row each."""
     return [
         {
@@ -34,12 +35,12 @@ def reductions(study: Findings) -> list[dict]:
             },
             "valid_to_hz": f"{row.valid_to_hz:.4g}",
         }
-        for model, chart in study.charts.items()
-        for row in study.rows(model)
+        for model, chart in study["charts"].items()
+        for row in succeeded(study, model)
     ]
 
 
-def checks(study: Findings) -> list[dict]:
+def checks(study: Results) -> list[dict]:
     """The default reduction in every configuration: one row each."""
     return [
         {
@@ -52,7 +53,7 @@ def checks(study: Findings) -> list[dict]:
             "seconds": f"{check['seconds']:.3g}",
             "times_cheaper_than_200_direct": f"{_times_cheaper(check):.0f}",
         }
-        for model, check in study.checks.items()
+        for model, check in study["checks"].items()
     ]
 
 
@@ -60,15 +61,15 @@ def _times_cheaper(check: dict) -> float:
     return _DIRECT_FREQUENCIES * check["seconds_per_direct_frequency"] / check["seconds"]
 
 
-def page(study: Findings) -> str:
+def page(study: Results) -> str:
     """What the study found, as a page."""
     worst, error = max(
-        ((model, check["error"]) for model, check in study.checks.items()), key=itemgetter(1)
+        ((model, check["error"]) for model, check in study["checks"].items()), key=itemgetter(1)
     )
     slowest, seconds = max(
-        ((model, check["seconds"]) for model, check in study.checks.items()), key=itemgetter(1)
+        ((model, check["seconds"]) for model, check in study["checks"].items()), key=itemgetter(1)
     )
-    cheaper = min(_times_cheaper(check) for check in study.checks.values())
+    cheaper = min(_times_cheaper(check) for check in study["checks"].values())
     text = [
         "# Reductions against the full order",
         "",
@@ -79,7 +80,7 @@ def page(study: Findings) -> str:
         f"{cheaper:.0f} times cheaper than a direct solution at {_DIRECT_FREQUENCIES} frequencies.",
         "",
     ]
-    for model in study.charts:
+    for model in study["charts"]:
         text += _section(study, model)
     return "\n".join(text) + "\n"
 
@@ -88,15 +89,15 @@ def _words(model: Model) -> str:
     return f"{model.thickness_um} µm, {model.height_mm} mm"
 
 
-def _section(study: Findings, model: Model) -> list[str]:
-    chart = study.charts[model]
+def _section(study: Results, model: Model) -> list[str]:
+    chart = study["charts"][model]
     kind = "with its stresses" if model.prestressed else "free of stress"
     damping = chart["damping"].replace("Damping", "").lower()
     heads = ["method", "order", "coordinates", "CPU s", "own estimate", *DEFINITIONS]
     rows = [
         [METHODS[row.method], _order(row.method, row.order), row.size, f"{row.seconds:.1f}",
          f"{row.estimate:.1e}", *(f"{error:.1e}" for error in row.errors.max(axis=1))]
-        for row in study.rows(model)
+        for row in succeeded(study, model)
     ]  # fmt: skip
     return [
         f"## {model.thickness_um} µm, {model.size_mm:g} mm elements, {kind}",

@@ -4,7 +4,3 @@ The variants are data (`variants`), every measurement takes one of them and retu
 (`bending`, `frozen`, `buckled`, `crumpling`, `cost`), and `chart` draws them all. docs/elements.md
 has the decision.
 """
-
-from foilstudy.study.elements.plan import STUDY
-
-__all__ = ["STUDY"]

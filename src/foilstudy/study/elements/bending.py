@@ -10,7 +10,7 @@ from foilstudy.model.shell.shell import Shell
 from foilstudy.model.shell.tangent import mass_matrix
 from foilstudy.solve.loading.path import follow_load
 from foilstudy.study.elements.variants import Variant
-from foilstudy.study.foils import FEP
+from foilstudy.study.published import FEP, HEIGHT, RADIUS
 from foilstudy.study.verification.candidates import Candidate
 from foilstudy.study.verification.frequencies import circumferential_orders
 from foilstudy.study.verification.nonlinear import ROLL_UP
@@ -19,7 +19,6 @@ from foilstudy.study.verification.theory_cylinder import FREE, Cylinder, frequen
 SLENDERNESS = (0.01, 0.02, 0.05, 0.1, 0.2)
 """Thickness over element size."""
 
-_RADIUS, _LENGTH = 0.1, 0.17
 _AROUND, _ALONG = 16, 4
 """A ring as coarse as a crumple is at its ridges: R = 2.5 h."""
 _ORDERS = (2, 3)
@@ -37,12 +36,12 @@ def ring_error(variant: Variant, slenderness: float) -> float:
     float
         Root mean square over the modes.
     """
-    size = 2 * np.pi * _RADIUS / _AROUND
+    size = 2 * np.pi * RADIUS / _AROUND
     thickness = slenderness * size
-    patch = Patch(_AROUND, _ALONG, size, _LENGTH / _ALONG)
-    points = cylinder_control_points(patch, 2 * _RADIUS)
+    patch = Patch(_AROUND, _ALONG, size, HEIGHT / _ALONG)
+    points = cylinder_control_points(patch, 2 * RADIUS)
     sheet = Shell.elastic(patch, points, FEP, thickness, variant.element)
-    cylinder = Cylinder(_RADIUS, _LENGTH, thickness, FEP)
+    cylinder = Cylinder(RADIUS, HEIGHT, thickness, FEP)
     mass = mass_matrix(patch, FEP.density * thickness * sheet.section.areas)
     eigenvalues, shapes = eigh(sheet.tangent().toarray(), mass.toarray())
     orders = circumferential_orders(patch, points, shapes)

@@ -9,8 +9,6 @@ the undeformed shape.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from foilstudy.linalg import SolveError
@@ -21,7 +19,7 @@ from foilstudy.model.supports.loads import DeadLoad
 from foilstudy.solve.equilibrium.newton import NewtonOptions, NewtonResult, minimise
 from foilstudy.solve.loading.loaded_sheet import LoadedSheet
 from foilstudy.study.elements.variants import VARIANTS, Variant
-from foilstudy.study.foils import FEP
+from foilstudy.study.published import FEP
 
 THICKNESS = 500e-6
 """m."""
@@ -37,24 +35,16 @@ _RESIDUAL, _RESIDUAL_ON_THE_WAY = 1e-6, 1e-3
 _HESSIANS = 60
 
 
-@dataclass(frozen=True)
-class Buckled:
-    """Strain energy at the end of the shortening.
+def buckled(variant: Variant) -> tuple[float, np.ndarray]:
+    """Follow the shortening on the 5 mm mesh.
 
-    Attributes
-    ----------
+    Returns
+    -------
     energy : float
-        J; NaN where no stable equilibrium was found.
+        At the end, J; NaN where no stable equilibrium was found.
     points : ndarray, shape (3, rows, columns)
         m.
     """
-
-    energy: float
-    points: np.ndarray
-
-
-def buckled(variant: Variant) -> Buckled:
-    """Follow the shortening on the 5 mm mesh."""
     sheet, held = _panel(variant, 1)
     unknowns = np.zeros(held.free)
     for step in range(1, _INCREMENTS + 1):
@@ -64,18 +54,11 @@ def buckled(variant: Variant) -> Buckled:
         unknowns = result.q
     points = problem.points(unknowns)
     found = result.status == "converged"
-    return Buckled(float(sheet.energies(points).total) if found else np.nan, points)
+    return float(sheet.energies(points).total) if found else np.nan, points
 
 
-@dataclass(frozen=True)
-class ReferenceEnergies:
-    """Energies of one element on the meshes of `LEVELS`, J."""
-
-    energies: tuple[float, ...]
-
-
-def reference_energies(name: str) -> ReferenceEnergies:
-    """Follow the path on the coarse mesh, then refine.
+def reference_energies(name: str) -> dict[str, list[float]]:
+    """Follow the path on the coarse mesh, then refine: ``energies`` on those of `LEVELS`, J.
 
     The equilibrium on a finer mesh is sought from that on the coarser one, refined.
 
@@ -85,8 +68,8 @@ def reference_energies(name: str) -> ReferenceEnergies:
         If one is not found.
     """
     variant = VARIANTS[name]
-    coarse = buckled(variant)
-    energies, points = [coarse.energy], coarse.points
+    energy, points = buckled(variant)
+    energies = [energy]
     for level in LEVELS[1:]:
         sheet, held = _panel(variant, level)
         problem = _shortened(sheet, held, SHORTENING)
@@ -95,7 +78,7 @@ def reference_energies(name: str) -> ReferenceEnergies:
             raise SolveError(f"no equilibrium on the mesh refined {level} times: {result.message}")
         points = problem.points(result.q)
         energies.append(float(sheet.energies(points).total))
-    return ReferenceEnergies(tuple(energies))
+    return {"energies": energies}
 
 
 def _surface(around: np.ndarray, along: np.ndarray) -> np.ndarray:

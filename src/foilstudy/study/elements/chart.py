@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from foilstudy.base.reference import EXPLICIT_CODE_ENERGIES
-from foilstudy.plot.style import GREY, PAGE_WIDTH, line_style, marker, new_figure, styled
+from foilstudy.plot import style
 from foilstudy.study.elements.bending import SLENDERNESS
-from foilstudy.study.elements.plan import DEFAULT, FROZEN
-from foilstudy.study.elements.scene import COARSE
-from foilstudy.study.elements.summary import Findings
+from foilstudy.study.elements.plan import BASELINE, COARSE_MM, DEFAULT, FROZEN
+from foilstudy.study.elements.summary import variant_row
 from foilstudy.study.elements.variants import VARIANTS
+from foilstudy.study.kernel.plan import Results
 
 _HEIGHT = 12.5
 _COLOURS = {
@@ -24,19 +24,14 @@ _COLOURS = {
 _LEGEND_COLUMNS = 4
 
 
-@styled
-def draw(study: Findings):
-    """Six panels: error against t/h for both kinds of task, then error against cost.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-    """
-    figure = new_figure(PAGE_WIDTH, _HEIGHT)
+@style.styled
+def draw(study: Results):
+    """Six panels: error against t/h for both kinds of task, then error against cost."""
+    figure = style.new_figure(style.PAGE_WIDTH, _HEIGHT)
     axes = figure.subplots(3, 2)
     _against_slenderness(axes[0, 0], study, _ring, SLENDERNESS)
     axes[0, 0].set_title("bending a coarse ring (R = 2.5 h), against theory")
-    slenderness = tuple(case.thickness_um * 1e-6 / COARSE for case in FROZEN)
+    slenderness = tuple(case.thickness_um * 1e-6 / (COARSE_MM * 1e-3) for case in FROZEN)
     _against_slenderness(axes[0, 1], study, _axial, slenderness)
     axes[0, 1].set_title("axial stiffness of a given crumple, 5 mm against 1.25 mm")
     costs = [(axes[1, 0], "axial_500um", "stiffness of a given crumple, 500 µm")]
@@ -46,8 +41,7 @@ def draw(study: Findings):
         _against_cost(ax, study, key)
         ax.set_title(title)
     _crumple_energy(axes[2, 1], study)
-    handles, labels = axes[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=_LEGEND_COLUMNS, fontsize=8.5)
+    style.legend_below(figure, axes[0, 0], _LEGEND_COLUMNS, fontsize=8.5)
     return figure
 
 
@@ -58,8 +52,8 @@ def _look(name: str) -> dict:
     place = family.index(name)
     return {
         "color": _COLOURS[variant.family],
-        "marker": marker(place),
-        "ls": line_style(place),
+        "marker": style.marker(place),
+        "ls": style.line_style(place),
         "ms": 8 if name == DEFAULT else 5,
         "lw": 2.6 if name == DEFAULT else 1.2,
     }
@@ -73,9 +67,9 @@ def _axial(row: dict, index: int) -> float:
     return row[f"axial_{FROZEN[index].thickness_um}um"]
 
 
-def _against_slenderness(ax, study: Findings, value, slenderness) -> None:
+def _against_slenderness(ax, study: Results, value, slenderness) -> None:
     for name, variant in VARIANTS.items():
-        row = study.row(name)
+        row = variant_row(study, name)
         errors = [abs(value(row, k)) for k in range(len(slenderness))]
         ax.plot(slenderness, errors, label=variant.label, **_look(name))
     ax.set_xscale("log")
@@ -86,9 +80,9 @@ def _against_slenderness(ax, study: Findings, value, slenderness) -> None:
     ax.set_ylabel("relative error")
 
 
-def _against_cost(ax, study: Findings, key: str) -> None:
+def _against_cost(ax, study: Results, key: str) -> None:
     for name in VARIANTS:
-        row = study.row(name)
+        row = variant_row(study, name)
         ax.plot(row["cost"], abs(row[key]), **_look(name))
     ax.set_xscale("log")
     ax.set_yscale("log")
@@ -96,19 +90,19 @@ def _against_cost(ax, study: Findings, key: str) -> None:
     ax.set_ylabel("relative error")
 
 
-def _crumple_energy(ax, study: Findings) -> None:
+def _crumple_energy(ax, study: Results) -> None:
     """Energy of crumples against cost, beside finer meshes and those of an explicit code."""
     for name in VARIANTS:
-        energies = study.crumples[name]["energies"]
-        cost = study.cost["relative"][name]
+        energies = study["crumples"][name]["energies"]
+        cost = study["cost"][BASELINE]["relative"][name]
         ax.plot([cost] * len(energies), energies, **_look(name) | {"ls": "none"})
-    for (size, energies), style in zip(EXPLICIT_CODE_ENERGIES.items(), ("-", "--"), strict=True):
+    for (size, energies), look in zip(EXPLICIT_CODE_ENERGIES.items(), ("-", "--"), strict=True):
         for energy in energies:
             label = f"QEPH, this project, {size:g} mm"
-            ax.axhline(energy, color="#8172b3", lw=1.0, ls=style, label=label)
-    for (size, record), style in zip(study.fine.items(), ("--", "-"), strict=True):
+            ax.axhline(energy, color="#8172b3", lw=1.0, ls=look, label=label)
+    for (case, record), look in zip(study["fine"].items(), ("--", "-"), strict=True):
         energy = np.nanmean(record["energies"])
-        ax.axhline(energy, color=GREY, lw=1.6, ls=style, label=f"default, {size:g} mm")
+        ax.axhline(energy, color=style.GREY, lw=1.6, ls=look, label=f"default, {case.size_mm:g} mm")
     handles, labels = ax.get_legend_handles_labels()
     unique = dict(zip(labels, handles, strict=True))
     ax.legend(unique.values(), unique.keys(), fontsize=8, loc="upper left")

@@ -2,57 +2,75 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import replace
 
 import numpy as np
 
-from foilstudy.study.elements.plan import DEFAULT, FINE, Fine
-from foilstudy.study.elements.scene import COARSE, crumple
+from foilstudy.model.foil import Imperfection
+from foilstudy.model.shell.elements.protocol import Element
+from foilstudy.pipeline.crumple import uncrumpled
+from foilstudy.pipeline.crumpled import Crumpled
+from foilstudy.pipeline.method import Mesh
+from foilstudy.solve.problem import Problem
+from foilstudy.solve.relaxation import Ramp, RelaxationResult, Scheme, StoppingRule, relax
+from foilstudy.study.elements.plan import COARSE_MM, DEFAULT, FINE, Fine
 from foilstudy.study.elements.variants import VARIANTS
+from foilstudy.study.published import foil
 
-THICKNESS = 500e-6
-SEEDS = (0, 1)
-_FINE_STEPS_MAX = 20_000
+_THICKNESS_UM = 500
+_SEEDS = (0, 1)
+_RAMP_STEPS, _STEPS_MAX, _FINE_STEPS_MAX = 2000, 5000, 20_000
+_RESIDUAL = 1e-3
+_AMPLITUDE = 10e-6
 
 
-@dataclass(frozen=True)
-class Crumples:
-    """Outcome of several seeds; an energy is NaN where the crumple did not come to rest.
+def crumple(
+    element: Element, size_mm: float, thickness_um: float, seed: int, steps_max: int = _STEPS_MAX
+) -> tuple[Crumpled, RelaxationResult]:
+    """Crumple the foil on a mesh and relax it to a residual of 1e-3.
 
-    Attributes
+    Parameters
     ----------
-    size : float
-        Element size, m.
-    energies : tuple of float
-        J.
-    steps : tuple of int
-        Until the residual of 1e-3, ramp included.
-    statuses : tuple of str
+    size_mm, thickness_um : float
+        Of the elements and of the foil.
+    seed : int
+        Of the imperfection, 10 um of noise; another mesh has another imperfection.
+    steps_max : int
+        After the ramp of 2000 steps.
     """
-
-    size: float
-    energies: tuple[float, ...]
-    steps: tuple[int, ...]
-    statuses: tuple[str, ...]
+    imperfection = Imperfection(amplitude=_AMPLITUDE, seed=seed)
+    start = uncrumpled(foil(thickness_um), Mesh(size_mm * 1e-3), imperfection)
+    start = replace(start, element=element)
+    problem = Problem(start.stressed)
+    rule, ramp = StoppingRule(_RESIDUAL, steps_max), Ramp(start.foil.shortening, _RAMP_STEPS)
+    result = relax(problem, Scheme().start(problem), ramp, rule)
+    return replace(start, points=result.points), result
 
 
 def crumples(
-    name: str, size: float = COARSE, seeds: tuple[int, ...] = SEEDS, **options: int
-) -> Crumples:
-    """Crumple with one variant; the first seed only where that takes the general kernel."""
-    if not VARIANTS[name].fast:
+    name: str, size_mm: float = COARSE_MM, seeds: tuple[int, ...] = _SEEDS, **options: int
+) -> dict[str, list]:
+    """Crumple with one variant; the first seed only where that takes the general kernel.
+
+    Returns
+    -------
+    dict
+        By seed: ``energies`` (J), NaN where the crumple did not come to rest; ``steps`` until the
+        residual of 1e-3, ramp included; ``statuses``.
+    """
+    if not VARIANTS[name].own_kernel:
         seeds = seeds[:1]
-    energies, steps, statuses = [], [], []
+    found: dict[str, list] = {"energies": [], "steps": [], "statuses": []}
     for seed in seeds:
-        shape, result = crumple(VARIANTS[name].element, size, THICKNESS, seed, **options)
+        shape, result = crumple(VARIANTS[name].element, size_mm, _THICKNESS_UM, seed, **options)
         settled = result.status == "converged"
-        energies.append(float(shape.energies().total) if settled else np.nan)
-        steps.append(result.steps)
-        statuses.append(result.status)
-    return Crumples(size, tuple(energies), tuple(steps), tuple(statuses))
+        found["energies"].append(float(shape.energies().total) if settled else np.nan)
+        found["steps"].append(result.steps)
+        found["statuses"].append(result.status)
+    return found
 
 
-def fine_crumples(case: Fine) -> Crumples:
+def fine_crumples(case: Fine) -> dict[str, list]:
     """By the default on a fine mesh: both seeds on the middle one, the first on the finest."""
-    seeds = SEEDS if case.size_mm > FINE[-1].size_mm else SEEDS[:1]
-    return crumples(DEFAULT, case.size_mm * 1e-3, seeds, steps_max=_FINE_STEPS_MAX)
+    seeds = _SEEDS if case.size_mm > FINE[-1].size_mm else _SEEDS[:1]
+    return crumples(DEFAULT, case.size_mm, seeds, steps_max=_FINE_STEPS_MAX)

@@ -4,18 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from foilstudy.study.kernel import Lazy, Part, Study
+from foilstudy.study.elements.variants import VARIANTS
+from foilstudy.study.kernel.plan import Lazy, Part, Study, results
 
-VARIANT_NAMES = (
-    "one_point_0p01", "one_point_0p05", "one_point_0p2", "one_point_1", "gauss_2", "gauss_3",
-    "patch_wise", "cas_0", "cas_1", "staggered_0", "staggered_third", "staggered_1", "corner_0",
-    "corner_half", "corner_1", "corner_1_bend_4",
-)  # fmt: skip
-"""Keys of `variants.VARIANTS`."""
 DEFAULT = "corner_1"
 """The element of the default configuration."""
 BASELINE = "one_point_0p05"
-"""The element of the design, against which costs count."""
+"""The one-point element with the default stabilisation, against which costs count."""
+_VARIANTS = tuple(VARIANTS)
+COARSE_MM = 5.0
+"""Element size on which elements are compared."""
 
 
 @dataclass(frozen=True)
@@ -60,15 +58,15 @@ STUDY = Study(
         ),
         Part(
             "variants",
-            VARIANT_NAMES,
+            _VARIANTS,
             Lazy(f"{_HERE}.errors:variant_errors"),
             needs={"frozen": lambda variant: FROZEN},
         ),
-        Part("crumples", VARIANT_NAMES, Lazy(f"{_HERE}.crumpling:crumples")),
+        Part("crumples", _VARIANTS, Lazy(f"{_HERE}.crumpling:crumples")),
         # Last, and alone on its core: ratios within one run, but a full machine blurs them.
         Part("cost", (BASELINE,), Lazy(f"{_HERE}.cost:costs"), priority=-1),
     ),
-    findings=Lazy(f"{_HERE}.summary:Findings.of"),
+    findings=results,
     tables={
         "elements.csv": Lazy(f"{_HERE}.summary:rows"),
         "elements.md": Lazy(f"{_HERE}.summary:page"),

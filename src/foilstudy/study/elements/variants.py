@@ -1,16 +1,11 @@
-"""The elements that are compared."""
+"""The elements that are compared; cheap to import."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 from foilstudy.model.shell.elements import sampling
-from foilstudy.model.shell.elements.corner import Corner
-from foilstudy.model.shell.elements.one_point import OnePoint
-from foilstudy.model.shell.elements.protocol import Element
-from foilstudy.model.shell.elements.sampled import Sampled, SampledKernel
-from foilstudy.model.shell.elements.sampling import StrainSampling
-from foilstudy.model.shell.section import Section
+from foilstudy.study.kernel.plan import Lazy
 
 
 @dataclass(frozen=True)
@@ -23,48 +18,43 @@ class Variant:
         For figures and tables.
     family : str
         Variants of a family share a colour.
-    general : Element
-        By the general kernel, in which operations cost alike for all variants.
-    fast : Element or None
-        The same with a vectorised force.
+    general_kernel : Lazy
+        Makes the element by the general kernel, in which operations cost alike for all variants.
+    own_kernel : Lazy or None
+        Makes the same with a vectorised force.
     """
 
     label: str
     family: str
-    general: Element
-    fast: Element | None = None
+    general_kernel: Lazy
+    own_kernel: Lazy | None = None
 
     @property
-    def element(self) -> Element:
-        """The faster kernel if there is one."""
-        return self.fast or self.general
+    def element(self):
+        """With the faster kernel if there is one."""
+        return (self.own_kernel or self.general_kernel)()
 
 
-@dataclass(frozen=True)
-class _CornerSampled:
-    """The default's sampling and checkerboard control, but for the treatment of bending."""
-
-    fold: float
-    bending_points: int = 1
-    name: str = "corner, sampled"
-
-    def kernel(self, section: Section) -> SampledKernel:
-        share = Corner().share(section)
-        return SampledKernel(section, sampling.corner(share, self.fold, self.bending_points))
+_ELEMENTS = "foilstudy.model.shell.elements"
 
 
-def _sampled(family: str, label: str, variant: StrainSampling) -> Variant:
-    return Variant(label, family, Sampled(variant))
+def _sampled(
+    family: str, label: str, variant: sampling.StrainSampling, own: Lazy | None = None
+) -> Variant:
+    return Variant(label, family, Lazy(f"{_ELEMENTS}.sampled:Sampled", (variant,)), own)
 
 
 def _one_point(chi: float) -> Variant:
-    general = Sampled(sampling.one_point(chi))
-    return Variant(f"one point, χ = {chi:g}", "one point", general, OnePoint(chi))
+    own = Lazy(f"{_ELEMENTS}.one_point:OnePoint", (chi,))
+    return _sampled("one point", f"one point, χ = {chi:g}", sampling.one_point(chi), own)
 
 
-def _corner(label: str, fold: float, bending_points: int = 1, fast: Element | None = None):
-    return Variant(f"corner, {label}", "corner", _CornerSampled(fold, bending_points), fast)
+def _corner(label: str, fold: float, bending_points: int = 1, own: Lazy | None = None) -> Variant:
+    general = Lazy("foilstudy.study.elements.corner:CornerSampled", (fold, bending_points))
+    return Variant(f"corner, {label}", "corner", general, own)
 
+
+_DEFAULT = Lazy(f"{_ELEMENTS}.corner:Corner")
 
 VARIANTS: dict[str, Variant] = {
     "one_point_0p01": _one_point(0.01),
@@ -81,7 +71,7 @@ VARIANTS: dict[str, Variant] = {
     "staggered_1": _sampled("staggered", "staggered, fold 1", sampling.staggered(1.0)),
     "corner_0": _corner("fold 0", 0.0),
     "corner_half": _corner("fold 1/2", 0.5),
-    "corner_1": _corner("fold 1 (default)", 1.0, fast=Corner()),
+    "corner_1": _corner("fold 1 (default)", 1.0, own=_DEFAULT),
     "corner_1_bend_4": _corner("fold 1, 2×2 bending", 1.0, bending_points=2),
 }
 """By the name that files give them, in the order of the tables."""

@@ -3,7 +3,3 @@
 A study is data (`plan`); `files` measures its cases and writes what comes of them, and
 ``workflow/rules/studies.smk`` makes the jobs. docs/studies.md shows how to add one.
 """
-
-from foilstudy.study.kernel.plan import Case, Lazy, Part, Record, Study, case_name
-
-__all__ = ["Case", "Lazy", "Part", "Record", "Study", "case_name"]

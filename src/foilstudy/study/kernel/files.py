@@ -16,10 +16,7 @@ from foilstudy.base.costs import Cost, measured
 from foilstudy.base.files import read_json, write_json, written_whole
 from foilstudy.base.provenance import provenance
 from foilstudy.base.tables import csv_text
-from foilstudy.study.kernel.plan import Case, Lazy, Record, Study, case_name
-
-Records = dict[str, dict[Case, Record]]
-"""By part and case, in the order of the plan."""
+from foilstudy.study.kernel.plan import Lazy, Record, Records, Study, case_name
 
 
 def measure(
@@ -29,7 +26,6 @@ def measure(
 
     Parameters
     ----------
-    study : Study
     part, case : str
         Names.
     path : path

@@ -54,7 +54,6 @@ class Lazy:
 
     Attributes
     ----------
-    place : str
     arguments : tuple
         Further arguments, behind those of the call.
     """
@@ -77,18 +76,29 @@ class Record:
 
     Attributes
     ----------
-    part : str
-    case : Case
     result : dict or list
         As measured; lists of numbers come back as arrays, numbers that were not finite as None,
         as NaN within arrays.
-    cost : Cost
     """
 
     part: str
     case: Case
     result: Any
     cost: Cost
+
+
+Records = Mapping[str, Mapping[Case, Record]]
+"""By part and case, in the order of the plan."""
+Results = dict[str, dict[Case, Any]]
+"""What was measured, by part and case."""
+
+
+def results(records: Records) -> Results:
+    """Findings of a study whose tables and figures need no costs."""
+    return {
+        part: {case: record.result for case, record in cases.items()}
+        for part, cases in records.items()
+    }
 
 
 @dataclass(frozen=True)
@@ -99,7 +109,6 @@ class Part:
     ----------
     name : str
         Also of the folder of the records.
-    cases : tuple of Case
     measure : callable
         ``measure(case)`` returns a dict, list or dataclass of numbers and text. With `needs`,
         ``measure(case, PART={case: Record})`` for every part that is needed.

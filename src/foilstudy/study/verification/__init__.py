@@ -1,9 +1,5 @@
 """The shell held against theory and publications: ``snakemake verify``.
 
 Each benchmark is a function of the element under test that returns a `records.Benchmark`;
-`plan.MODULES` names them all.
+`plan.BENCHMARKS` names them all.
 """
-
-from foilstudy.study.verification.plan import STUDY
-
-__all__ = ["STUDY"]

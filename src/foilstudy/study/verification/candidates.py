@@ -19,8 +19,6 @@ class Candidate:
 
     Attributes
     ----------
-    name : str
-    element : Element
     edge_order : float
         Order of convergence where a free edge decides and the mesh does not resolve its boundary
         layer, which is about sqrt(R t) wide.

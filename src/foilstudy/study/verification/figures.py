@@ -9,16 +9,8 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.ticker import NullFormatter
 
+from foilstudy.plot import style
 from foilstudy.plot.render import COLOUR_MAP, View
-from foilstudy.plot.style import (
-    GREY,
-    PAGE_WIDTH,
-    line_style,
-    marker,
-    new_figure,
-    ordered_colours,
-    styled,
-)
 from foilstudy.study.verification.records import Benchmark, Picture, Plot
 
 _PANEL_HEIGHT = 4.0
@@ -40,7 +32,7 @@ def draw_one(benchmarks: Sequence[Benchmark], name: str):
     return draw([benchmark for benchmark in benchmarks if benchmark.name == name])
 
 
-@styled
+@style.styled
 def draw(benchmarks: Sequence[Benchmark]):
     """Draw one benchmark with several elements.
 
@@ -48,10 +40,6 @@ def draw(benchmarks: Sequence[Benchmark]):
     ----------
     benchmarks : sequence of Benchmark
         The same one, an element each; curves and shapes are drawn of the first.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
     """
     plot, pictures = benchmarks[0].plot, benchmarks[0].pictures
     across = min(len(pictures), _PICTURES_PER_ROW)
@@ -62,8 +50,8 @@ def draw(benchmarks: Sequence[Benchmark]):
     if plot:  # the legends stand below the axes
         heights[0] += _LEGEND_LINE * max(len(benchmarks[0].quantities) + 1, 2 * len(plot.curves))
     if rows:
-        heights.append(rows * (min(PAGE_WIDTH / across * tallest, _TALLEST_PICTURE) + 0.3))
-    figure = new_figure(PAGE_WIDTH, sum(heights))
+        heights.append(rows * (min(style.PAGE_WIDTH / across * tallest, _TALLEST_PICTURE) + 0.3))
+    figure = style.new_figure(style.PAGE_WIDTH, sum(heights))
     parts = np.atleast_1d(figure.subfigures(len(heights), 1, height_ratios=heights))
     count = len(benchmarks)
     axes = parts[0].subplots(1, count + bool(plot), squeeze=False)[0]
@@ -89,14 +77,14 @@ def _convergence(ax, benchmark: Benchmark) -> None:
     """Relative error against elements, both logarithmic, with the slope that theory expects."""
     ax.set_xscale("log")
     ax.set_yscale("log")
-    colours = ordered_colours(len(benchmark.quantities))
+    colours = style.ordered_colours(len(benchmark.quantities))
     shown = []
     for i, (quantity, colour) in enumerate(zip(benchmark.quantities, colours)):
         error = np.abs(quantity.errors)
         error[error < _SMALLEST_ERROR] = np.nan
         ax.plot(
-            quantity.meshes, error, color=colour, marker=marker(i), ms=5, ls=line_style(i),
-            label=quantity.name,
+            quantity.meshes, error, color=colour, marker=style.marker(i), ms=5,
+            ls=style.line_style(i), label=quantity.name,
         )  # fmt: skip
         if quantity.expected_rate is not None and np.isfinite(error).any():
             shown.append((quantity, np.nanmax(error)))
@@ -104,13 +92,13 @@ def _convergence(ax, benchmark: Benchmark) -> None:
         quantity, largest = max(shown, key=lambda pair: pair[1])
         ends = np.array([quantity.meshes[0], quantity.meshes[-1]], float)
         slope = 1.6 * largest * (ends / ends[0]) ** -quantity.expected_rate
-        ax.plot(ends, slope, color=GREY, lw=1.0, label="order expected")
+        ax.plot(ends, slope, color=style.GREY, lw=1.0, label="order expected")
         ax.annotate(
             f"order {quantity.expected_rate:g}", (ends[0], slope[0]), (4, 2),
-            textcoords="offset points", color=GREY, fontsize=8.5,
+            textcoords="offset points", color=style.GREY, fontsize=8.5,
         )  # fmt: skip
     ticks = sorted({mesh for quantity in benchmark.quantities for mesh in quantity.meshes})
-    ax.set_xticks(ticks, [str(tick) for tick in ticks])
+    ax.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
     ax.xaxis.set_minor_formatter(NullFormatter())
     ax.tick_params(axis="x", which="minor", length=0)
     sides = dict.fromkeys(quantity.side for quantity in benchmark.quantities)
@@ -126,12 +114,12 @@ def _share_errors(axes) -> None:
 
 
 def _curves(ax, plot: Plot, element: str) -> None:
-    for i, (curve, colour) in enumerate(zip(plot.curves, ordered_colours(len(plot.curves)))):
+    for i, (curve, colour) in enumerate(style.coloured(plot.curves)):
         ax.plot(curve.x, curve.y, color=colour, label=curve.label)
-        if curve.published_x:
+        if len(curve.published_x):
             ax.plot(
-                curve.published_x, curve.published_y, marker(i), color=colour, mfc="white", ms=6,
-                label=f"{curve.label}, published",
+                curve.published_x, curve.published_y, style.marker(i), color=colour, mfc="white",
+                ms=6, label=f"{curve.label}, published",
             )  # fmt: skip
     ax.set_xlabel(plot.x_label)
     ax.set_ylabel(plot.y_label)

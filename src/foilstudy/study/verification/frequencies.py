@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
@@ -23,7 +22,7 @@ from foilstudy.model.supports.edges import (
     constraints,
     diaphragm,
 )
-from foilstudy.study.foils import FEP
+from foilstudy.study.published import FEP, HEIGHT, RADIUS
 from foilstudy.study.verification import theory_cylinder, theory_plate
 from foilstudy.study.verification.candidates import Candidate
 from foilstudy.study.verification.linear import (
@@ -33,10 +32,9 @@ from foilstudy.study.verification.linear import (
     plate_rigidity,
     square_patch,
 )
-from foilstudy.study.verification.records import Benchmark, Picture, Quantity
+from foilstudy.study.verification.records import Benchmark, Checked, Picture
 from foilstudy.study.verification.theory_cylinder import Cylinder
 
-RADIUS, LENGTH = 0.1, 0.17
 ELEMENTS_ALONG = 10 / 37
 """Elements along per element around, on this cylinder nearly square ones."""
 _SEARCH = 1.4
@@ -90,7 +88,7 @@ def plate_frequencies(candidate: Candidate, meshes: tuple[int, ...] = _PLATE_MES
         pictures.append(mode_picture(patch, points, shape.transpose(2, 0, 1), f"{name} plate"))
         for k in _distinct(exact):
             quantities.append(
-                Quantity(
+                Checked(
                     f"{name} plate, frequency {k + 1}", "sqrt(D/(rho t))/a^2", float(exact[k]),
                     source, "side", meshes, tuple(float(v[k]) for v in values), exact=True,
                 )
@@ -117,7 +115,7 @@ class CylinderCase:
 
     def theory(self, n: int) -> np.ndarray:
         """Exact frequencies of order n, Hz."""
-        cylinder = Cylinder(RADIUS, LENGTH, self.thickness, FEP)
+        cylinder = Cylinder(RADIUS, HEIGHT, self.thickness, FEP)
         conditions = {
             "clamped": theory_cylinder.CLAMPED,
             "diaphragm": theory_cylinder.DIAPHRAGM,
@@ -127,7 +125,7 @@ class CylinderCase:
 
 
 def cylinder_frequencies(
-    edges: str, candidate: Candidate, cases: Sequence[CylinderCase] | None = None
+    candidate: Candidate, edges: str, cases: Sequence[CylinderCase] | None = None
 ) -> Benchmark:
     """Frequencies of the uncrumpled foil cylinder, both edges alike.
 
@@ -135,7 +133,6 @@ def cylinder_frequencies(
     ----------
     edges : str
         ``clamped``, ``diaphragm`` or ``free``.
-    candidate : Candidate
     cases : sequence of CylinderCase, optional
         Others than `CASES`, 500 and 50 um.
     """
@@ -149,7 +146,7 @@ def cylinder_frequencies(
                 values = tuple(float(mesh[n].frequencies[kind]) for mesh, _ in found)
                 suffix = f" ({kind + 1})" if case.kinds > 1 else ""
                 quantities.append(
-                    Quantity(
+                    Checked(
                         f"{edges} cylinder {label}, n = {n}{suffix}", "Hz", float(exact),
                         "Koiter's shell theory, Ritz to 6 digits", "circumference",
                         case.meshes, values, order, exact=True,
@@ -182,7 +179,7 @@ def _by_order(
 ) -> tuple[Mapping[int, _Family], tuple]:
     """Modes of one mesh sorted by circumferential order, and patch and points of the mesh."""
     along = round(around * ELEMENTS_ALONG)
-    patch = Patch(around, along, 2 * np.pi * RADIUS / around, LENGTH / along)
+    patch = Patch(around, along, 2 * np.pi * RADIUS / around, HEIGHT / along)
     points = cylinder_control_points(patch, 2 * RADIUS)
     sheet = candidate.sheet(patch, points, FEP, case.thickness)
     held = constraints(patch, {e: _condition(case.edges, patch, points, e) for e in _ENDS})
@@ -255,8 +252,3 @@ CASES = {
     ),
 }
 """The coarsest mesh of each is not yet where the order is seen: quadratic splines lock there."""
-
-BENCHMARKS = {
-    "plate_frequencies": plate_frequencies,
-    **{f"{edges}_cylinder": partial(cylinder_frequencies, edges) for edges in CASES},
-}

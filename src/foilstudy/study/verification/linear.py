@@ -26,7 +26,7 @@ from foilstudy.model.supports.interpolation import along_weights, around_weights
 from foilstudy.model.supports.loads import DeadLoad, area_load, point_load
 from foilstudy.study.verification import theory_plate
 from foilstudy.study.verification.candidates import Candidate
-from foilstudy.study.verification.records import Benchmark, Picture, Quantity
+from foilstudy.study.verification.records import Benchmark, Checked, Picture
 from foilstudy.study.verification.theory_cylinder import Cylinder, pinched_deflection
 from foilstudy.study.verification.theory_roof import Roof, edge_deflection
 
@@ -99,7 +99,7 @@ def plates(candidate: Candidate, meshes: tuple[int, ...] = (8, 16, 32, 64)) -> B
                 if elements == meshes[-2] and skewed:
                     pictures.append(_picture(patch, points, field, f"{name} grid"))
             quantities.append(
-                Quantity(
+                Checked(
                     f"centre deflection, {name} grid", "q a^4/D", reference, source, "side",
                     meshes, tuple(values), exact=True,
                 )
@@ -139,12 +139,12 @@ def scordelis_lo(candidate: Candidate, meshes: tuple[int, ...] = (6, 12, 24, 48)
     roof = Roof(Cylinder(radius, length, thickness, material), angle, 90.0)
     order = candidate.order(free_edge=True)
     quantities = (
-        Quantity(
+        Checked(
             "deflection amid the free edge, published", "1", 0.3006,
             "Kirchhoff-Love value of isogeometric literature", "half arc", meshes, values,
             expected_rate=order,
         ),
-        Quantity(
+        Checked(
             "deflection amid the free edge, exact", "1", edge_deflection(roof),
             "Koiter's theory, Fourier-Ritz series", "half arc", meshes, values, exact=True,
             expected_rate=order,
@@ -191,12 +191,12 @@ def pinched_cylinder(
     values, picture = _sequence(candidate, meshes, model, (material, thickness))
     series = pinched_deflection(Cylinder(radius, length, thickness, material))
     quantities = (
-        Quantity(
+        Checked(
             "deflection under the force, published", "1", 1.8248e-5,
             "164.24 P/(E t), Lindberg, Olson, Cowper 1969", "quarter circumference",
             meshes, values, expected_rate=None,
         ),
-        Quantity(
+        Checked(
             "deflection under the force, exact", "1", series,
             "Koiter's theory, double Fourier series", "quarter circumference",
             meshes, values, exact=True,
@@ -221,7 +221,7 @@ def rigid_motions(candidate: Candidate) -> Benchmark:
         patch = Patch(elements, elements, 0.2 / elements, 0.3 / elements, periodic=False)
         sheet = candidate.sheet(patch, fitted_control_points(patch, surface), material, 5e-3)
         counts.append(float(count_rigid_modes(sheet.tangent())))
-    quantity = Quantity(
+    quantity = Checked(
         "modes without energy", "1", 6.0, "three translations, three rotations", "side",
         meshes, tuple(counts), expected_rate=None, exact=True, tolerance=0.0,
     )  # fmt: skip
@@ -270,9 +270,3 @@ def drawn_points(patch: Patch, field: np.ndarray) -> np.ndarray:
     """Values at the knots, those at the seam of a closed patch on both sides."""
     values = knot_points(field, patch.periodic)
     return np.concatenate([values, values[:, :, :1]], axis=2) if patch.periodic else values
-
-
-BENCHMARKS = {
-    function.__name__: function
-    for function in (rigid_motions, plates, scordelis_lo, pinched_cylinder)
-}

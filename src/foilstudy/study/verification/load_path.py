@@ -16,10 +16,10 @@ from foilstudy.study.verification.candidates import Candidate
 from foilstudy.study.verification.records import (
     TOLERANCE,
     Benchmark,
+    Checked,
     Curve,
     Picture,
     Plot,
-    Quantity,
 )
 
 
@@ -29,7 +29,6 @@ class Probe:
 
     Attributes
     ----------
-    name : str
     at : tuple of float
         Place around and along, as shares of the patch.
     direction : tuple of float
@@ -45,7 +44,7 @@ class Probe:
     free_edge : bool
         Whether a free edge decides, see `Candidate.order`.
     tolerance, monotone
-        As in `Quantity`.
+        As in `Checked`.
     """
 
     name: str
@@ -81,15 +80,12 @@ class NonlinearCase:
 
     Attributes
     ----------
-    name, title : str
     side : str
         Along what the elements are counted.
-    meshes : tuple of int
     build : callable
         From the element under test and a number of elements to the sheet under its full load.
     factors : tuple of float
         Load factors, ascending.
-    probes : tuple of Probe
     """
 
     name: str
@@ -100,64 +96,58 @@ class NonlinearCase:
     factors: tuple[float, ...]
     probes: tuple[Probe, ...]
 
+    def run(self, candidate: Candidate, meshes: tuple[int, ...] | None = None) -> Benchmark:
+        """Compute a benchmark.
 
-def run(
-    case: NonlinearCase,
-    candidate: Candidate,
-    meshes: tuple[int, ...] | None = None,
-) -> Benchmark:
-    """Compute a benchmark.
+        The load grows on the coarsest mesh; on the finer ones every equilibrium is sought from that
+        of the mesh before, refined.
 
-    The load grows on the coarsest mesh; on the finer ones every equilibrium is sought from that
-    of the mesh before, refined.
+        Parameters
+        ----------
+        meshes : tuple of int, optional
+            Other meshes than those of the case; each the double of the one before.
 
-    Parameters
-    ----------
-    case : NonlinearCase
-    candidate : Candidate
-    meshes : tuple of int, optional
-        Other meshes than those of the case; each the double of the one before.
-
-    Raises
-    ------
-    SolveError
-        If an equilibrium is not found.
-    """
-    meshes = meshes or case.meshes
-    loaded, shapes = None, None
-    readings = []
-    for elements in meshes:
-        finer = case.build(candidate, elements)
-        shapes = _grown(case, finer) if loaded is None else _resettled(case, loaded, shapes, finer)
-        loaded = finer
-        readings.append([[probe.read(loaded, p) for p in shapes] for probe in case.probes])
-    values = np.array(readings)
-    quantities = tuple(
-        Quantity(
-            f"{probe.name} at {factor:g} of the load",
-            "",
-            probe.published[case.factors.index(factor)],
-            probe.source,
-            case.side,
-            meshes,
-            tuple(values[:, k, case.factors.index(factor)].tolist()),
-            expected_rate=candidate.order(probe.free_edge) if probe.smooth else None,
-            tolerance=probe.tolerance,
-            monotone=probe.monotone,
+        Raises
+        ------
+        SolveError
+            If an equilibrium is not found.
+        """
+        meshes = meshes or self.meshes
+        loaded, shapes, readings = None, [], []
+        for elements in meshes:
+            finer = self.build(candidate, elements)
+            shapes = (
+                _grown(self, finer) if loaded is None else _resettled(self, loaded, shapes, finer)
+            )
+            loaded = finer
+            readings.append([[probe.read(loaded, p) for p in shapes] for probe in self.probes])
+        values = np.array(readings)
+        quantities = tuple(
+            Checked(
+                f"{probe.name} at {factor:g} of the load",
+                "",
+                probe.published[self.factors.index(factor)],
+                probe.source,
+                self.side,
+                meshes,
+                tuple(values[:, k, self.factors.index(factor)].tolist()),
+                expected_rate=candidate.order(probe.free_edge) if probe.smooth else None,
+                tolerance=probe.tolerance,
+                monotone=probe.monotone,
+            )
+            for k, probe in enumerate(self.probes)
+            for factor in probe.compared
         )
-        for k, probe in enumerate(case.probes)
-        for factor in probe.compared
-    )
-    curves = tuple(
-        Curve(
-            probe.name, (0.0, *values[-1, k].tolist()), (0.0, *case.factors),
-            probe.published, case.factors,
-        )
-        for k, probe in enumerate(case.probes)
-    )  # fmt: skip
-    plot = Plot("displacement", "load / full load", curves)
-    picture = _picture(case, loaded, shapes[-1])
-    return Benchmark(case.name, case.title, candidate.name, quantities, plot, (picture,))
+        curves = tuple(
+            Curve(
+                probe.name, (0.0, *values[-1, k].tolist()), (0.0, *self.factors),
+                probe.published, self.factors,
+            )
+            for k, probe in enumerate(self.probes)
+        )  # fmt: skip
+        plot = Plot("displacement", "load / full load", curves)
+        picture = _picture(self, loaded, shapes[-1])
+        return Benchmark(self.name, self.title, candidate.name, quantities, plot, (picture,))
 
 
 def _grown(case: NonlinearCase, loaded: LoadedSheet) -> list[np.ndarray]:

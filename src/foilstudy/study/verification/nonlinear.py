@@ -11,8 +11,6 @@ strain of the middle surface. The units are those of the publication, which give
 
 from __future__ import annotations
 
-from functools import partial
-
 import numpy as np
 
 from foilstudy.model.foil import Material
@@ -21,7 +19,7 @@ from foilstudy.model.supports.edges import clamped, constraints, symmetric
 from foilstudy.model.supports.loads import EdgeMoment, edge_load, point_load
 from foilstudy.solve.loading.loaded_sheet import LoadedSheet
 from foilstudy.study.verification.candidates import Candidate
-from foilstudy.study.verification.load_path import NonlinearCase, Probe, run
+from foilstudy.study.verification.load_path import NonlinearCase, Probe
 
 SOURCE = "Sze, Liu and Lo 2004"
 
@@ -272,7 +270,3 @@ SLIT_ANNULUS = NonlinearCase(
         ),
     ),
 )
-
-CASES = (END_SHEAR, ROLL_UP, OPEN_CYLINDER, PINCHED_CYLINDER, SLIT_ANNULUS)
-BENCHMARKS = {case.name: partial(run, case) for case in CASES}
-"""Functions of the element under test, by name."""

@@ -3,27 +3,28 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from importlib import import_module
 
-from foilstudy.study.kernel import Lazy, Part, Study
+from foilstudy.study.kernel.plan import Lazy, Part, Study
 
-MODULES = {
-    "rigid_motions": "linear",
-    "plates": "linear",
-    "scordelis_lo": "linear",
-    "pinched_cylinder": "linear",
-    "plate_frequencies": "frequencies",
-    "clamped_cylinder": "frequencies",
-    "diaphragm_cylinder": "frequencies",
-    "free_cylinder": "frequencies",
-    "axial_buckling": "stability",
-    "cantilever_end_shear": "nonlinear",
-    "cantilever_roll_up": "nonlinear",
-    "open_cylinder_pull_out": "nonlinear",
-    "pinched_clamped_cylinder": "nonlinear",
-    "slit_annular_plate": "nonlinear",
+_HERE = "foilstudy.study.verification"
+
+BENCHMARKS = {
+    "rigid_motions": Lazy(f"{_HERE}.linear:rigid_motions"),
+    "plates": Lazy(f"{_HERE}.linear:plates"),
+    "scordelis_lo": Lazy(f"{_HERE}.linear:scordelis_lo"),
+    "pinched_cylinder": Lazy(f"{_HERE}.linear:pinched_cylinder"),
+    "plate_frequencies": Lazy(f"{_HERE}.frequencies:plate_frequencies"),
+    "clamped_cylinder": Lazy(f"{_HERE}.frequencies:cylinder_frequencies", ("clamped",)),
+    "diaphragm_cylinder": Lazy(f"{_HERE}.frequencies:cylinder_frequencies", ("diaphragm",)),
+    "free_cylinder": Lazy(f"{_HERE}.frequencies:cylinder_frequencies", ("free",)),
+    "axial_buckling": Lazy(f"{_HERE}.stability:axial_buckling"),
+    "cantilever_end_shear": Lazy(f"{_HERE}.nonlinear:END_SHEAR.run"),
+    "cantilever_roll_up": Lazy(f"{_HERE}.nonlinear:ROLL_UP.run"),
+    "open_cylinder_pull_out": Lazy(f"{_HERE}.nonlinear:OPEN_CYLINDER.run"),
+    "pinched_clamped_cylinder": Lazy(f"{_HERE}.nonlinear:PINCHED_CYLINDER.run"),
+    "slit_annular_plate": Lazy(f"{_HERE}.nonlinear:SLIT_ANNULUS.run"),
 }
-"""Module of this package whose ``BENCHMARKS`` has the benchmark, in the order of the table."""
+"""Functions of the element under test that return a `records.Benchmark`; in the table's order."""
 
 ELEMENT_NAMES = ("corner", "one_point")
 """Keys of `candidates.CANDIDATES`, the default element of the studies first."""
@@ -36,7 +37,7 @@ class Trial:
     Attributes
     ----------
     benchmark : str
-        A key of `MODULES`.
+        A key of `BENCHMARKS`.
     element : str
         One of `ELEMENT_NAMES`.
     """
@@ -46,19 +47,11 @@ class Trial:
 
 
 def run(trial: Trial):
-    """Compute one benchmark with one element.
-
-    Returns
-    -------
-    records.Benchmark
-    """
+    """Compute one benchmark with one element."""
     from foilstudy.study.verification.candidates import CANDIDATES
 
-    module = import_module(f"foilstudy.study.verification.{MODULES[trial.benchmark]}")
-    return module.BENCHMARKS[trial.benchmark](CANDIDATES[trial.element])
+    return BENCHMARKS[trial.benchmark](CANDIDATES[trial.element])
 
-
-_HERE = "foilstudy.study.verification"
 
 STUDY = Study(
     name="verify",
@@ -68,7 +61,7 @@ STUDY = Study(
         Part(
             "benchmarks",
             # for the table: the elements of one benchmark follow each other
-            tuple(Trial(name, element) for name in MODULES for element in ELEMENT_NAMES),
+            tuple(Trial(name, element) for name in BENCHMARKS for element in ELEMENT_NAMES),
             run,
             memory_mb=2000,
         ),
@@ -77,7 +70,7 @@ STUDY = Study(
         "verification.csv": Lazy(f"{_HERE}.summary:rows"),
         "verification.md": Lazy(f"{_HERE}.summary:page"),
     },
-    figures={f"figures/{name}": Lazy(f"{_HERE}.figures:draw_one", (name,)) for name in MODULES},
+    figures={f"figures/{name}": Lazy(f"{_HERE}.figures:draw_one", (name,)) for name in BENCHMARKS},
     findings=Lazy(f"{_HERE}.summary:benchmarks_of"),
     problems=Lazy(f"{_HERE}.summary:problems"),
 )

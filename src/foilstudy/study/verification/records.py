@@ -1,7 +1,7 @@
 """What a benchmark returns: values on a sequence of meshes, held against a known one.
 
 A `Benchmark` is what one job of ``snakemake verify`` computes: one problem with one element. It has
-one `Quantity` for every number that theory or a publication gives, and what is drawn of it:
+one `Checked` for every number that theory or a publication gives, and what is drawn of it:
 `Curve` and `Picture`.
 """
 
@@ -23,14 +23,13 @@ _PICTURE_LINES = 120
 
 
 @dataclass(frozen=True)
-class Quantity:
+class Checked:
     """One number on a sequence of meshes beside its known value.
 
     Attributes
     ----------
     name : str
         What it is, in words: ``centre deflection``.
-    unit : str
     reference : float
         Value of theory or publication.
     source : str
@@ -106,16 +105,6 @@ class Quantity:
             return np.nan
         return float(brentq(mismatch, low, high))
 
-    @property
-    def limit(self) -> float:
-        """Value extrapolated to element size zero from the last two meshes.
-
-        With the order of theory, or the fitted one where theory promises none.
-        """
-        order = self.rate if self.expected_rate is None else self.expected_rate
-        ratio = (self.meshes[-1] / self.meshes[-2]) ** order
-        return self.values[-1] + (self.values[-1] - self.values[-2]) / (ratio - 1)
-
     def problems(self) -> tuple[str, ...]:
         """One sentence for each demand that is not met; those on the family are not asked here."""
         found = []
@@ -154,10 +143,8 @@ class Curve:
 
     Attributes
     ----------
-    label : str
     x, y : tuple of float
         Computed points.
-    published_x, published_y : tuple of float
     """
 
     label: str
@@ -182,7 +169,6 @@ class Picture:
 
     Attributes
     ----------
-    title : str
     points : nested list of float, shape (3, rows, columns)
         As drawn: displacements already scaled, the seam of a closed sheet on both sides.
     colour : nested list of float, shape (rows, columns)
@@ -221,15 +207,12 @@ class Benchmark:
         One line for headings.
     element : str
         Element under test.
-    quantities : tuple of Quantity
-    plot : Plot or None
-    pictures : tuple of Picture
     """
 
     name: str
     title: str
     element: str
-    quantities: tuple[Quantity, ...]
+    quantities: tuple[Checked, ...]
     plot: Plot | None = None
     pictures: tuple[Picture, ...] = ()
 
@@ -237,7 +220,7 @@ class Benchmark:
         """Root mean square of the relative errors of a family on every mesh."""
         return np.sqrt(np.mean([q.errors**2 for q in self._members(family)], axis=0))
 
-    def rate(self, quantity: Quantity) -> float:
+    def rate(self, quantity: Checked) -> float:
         """Order of convergence of a quantity, or of its family."""
         if not quantity.family:
             return quantity.rate
@@ -253,22 +236,5 @@ class Benchmark:
             found += _rate_problems(family, self.rate(first), first.expected_rate)
         return tuple(f"{self.name}, {self.element}: {problem}" for problem in found)
 
-    def _members(self, family: str) -> list[Quantity]:
+    def _members(self, family: str) -> list[Checked]:
         return [q for q in self.quantities if q.family == family]
-
-    @classmethod
-    def of(cls, result: dict) -> Benchmark:
-        """From the result of a record."""
-        quantities = tuple(
-            Quantity(**{**q, "meshes": tuple(map(int, q["meshes"])), "values": tuple(q["values"])})
-            for q in result["quantities"]
-        )
-        plot = result["plot"]
-        if plot is not None:
-            curves = tuple(
-                Curve(**{k: v if k == "label" else tuple(v) for k, v in curve.items()})
-                for curve in plot["curves"]
-            )
-            plot = Plot(plot["x_label"], plot["y_label"], curves)
-        pictures = tuple(Picture(**picture) for picture in result["pictures"])
-        return cls(result["name"], result["title"], result["element"], quantities, plot, pictures)

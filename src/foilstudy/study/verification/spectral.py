@@ -15,7 +15,6 @@ class LineBasis:
         Number of functions.
     zero : int
         Order of the zero at the ends: 0 free, 1 value held, 2 value and slope held.
-    length : float
     points : int, optional
         Gauss points of the integrals; by default enough for products of the functions.
     """

@@ -31,17 +31,16 @@ from foilstudy.model.supports.interpolation import as_vector
 from foilstudy.model.supports.loads import edge_load
 from foilstudy.solve.loading.buckling import buckling_modes
 from foilstudy.solve.loading.loaded_sheet import LoadedSheet
-from foilstudy.study.foils import FEP
+from foilstudy.study.published import FEP, HEIGHT, RADIUS
 from foilstudy.study.verification.candidates import Candidate
-from foilstudy.study.verification.frequencies import LENGTH, RADIUS
-from foilstudy.study.verification.records import Benchmark, Picture, Quantity
+from foilstudy.study.verification.records import Benchmark, Checked, Picture
 from foilstudy.study.verification.theory_cylinder import (
     Cylinder,
     buckling_strain,
     classical_buckling_stress,
 )
 
-FOIL_CYLINDER = Cylinder(RADIUS, LENGTH, 500e-6, FEP)
+FOIL_CYLINDER = Cylinder(RADIUS, HEIGHT, 500e-6, FEP)
 _COUNT = 40
 """Lowest modes among which the one of the cell is looked for."""
 _SWELLING = 0.06
@@ -49,12 +48,11 @@ _SWELLING = 0.06
 
 
 @dataclass(frozen=True)
-class Cell:
+class ModeCell:
     """Half a wave of a mode along and around.
 
     Attributes
     ----------
-    cylinder : Cylinder
     m : int
         Half waves along the cylinder.
     n : int
@@ -93,10 +91,10 @@ class Cell:
 
 
 CASES = (
-    (Cell(FOIL_CYLINDER, 2, 9), (16, 32, 64)),
-    (Cell(FOIL_CYLINDER, 1, 7), (32, 64, 128)),
-    (Cell(FOIL_CYLINDER, 5, 12), (8, 16, 32)),
-    (Cell(FOIL_CYLINDER, 14, 0), (8, 16, 32)),
+    (ModeCell(FOIL_CYLINDER, 2, 9), (16, 32, 64)),
+    (ModeCell(FOIL_CYLINDER, 1, 7), (32, 64, 128)),
+    (ModeCell(FOIL_CYLINDER, 5, 12), (8, 16, 32)),
+    (ModeCell(FOIL_CYLINDER, 14, 0), (8, 16, 32)),
 )
 """The three lowest modes and the lowest of rings; elements along half a wave."""
 
@@ -108,7 +106,7 @@ def axial_buckling(candidate: Candidate, cases: tuple = CASES) -> Benchmark:
         found = [cell_load(candidate, cell, cell.patch(k, meshes[0])) for k in meshes]
         name = f"m = {cell.m}, n = {cell.n}"
         quantities.append(
-            Quantity(
+            Checked(
                 f"axial buckling stress, {name}", "E t/R/sqrt(3(1-nu^2))", cell.critical_stress(),
                 "exact mode of Koiter's theory; classical value 1", "axial half wave",
                 meshes, tuple(load for load, _ in found), candidate.order(),
@@ -142,7 +140,7 @@ def sliding_cell(patch: Patch, points: np.ndarray, angle: float) -> Constraints:
     return Constraints(patch, sparse.hstack([held.matrix, column[:, None]]).tocsr())
 
 
-def cell_load(candidate: Candidate, cell: Cell, patch: Patch) -> tuple[float, np.ndarray]:
+def cell_load(candidate: Candidate, cell: ModeCell, patch: Patch) -> tuple[float, np.ndarray]:
     """Buckling stress of the mode of a cell over the classical one, and its radial displacement.
 
     Raises
@@ -185,7 +183,7 @@ def half_waves(radial: np.ndarray) -> tuple[int, int]:
     return int(along), int(around)
 
 
-def _picture(cell: Cell, radial: np.ndarray, title: str) -> Picture:
+def _picture(cell: ModeCell, radial: np.ndarray, title: str) -> Picture:
     """The radial displacement, mirrored from cell to cell, on the whole cylinder."""
     swelling = radial / np.abs(radial).max()
     for axis, cells in ((0, cell.m), (1, 2 * cell.around)):
@@ -203,6 +201,3 @@ def _mirrored(values: np.ndarray, axis: int, cells: int) -> np.ndarray:
     image = [values[::-1], values]
     whole = np.concatenate([values, *(image[k % 2][1:] for k in range(cells - 1))])
     return np.moveaxis(whole, 0, axis)
-
-
-BENCHMARKS = {"axial_buckling": axial_buckling}

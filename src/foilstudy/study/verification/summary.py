@@ -7,13 +7,22 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from foilstudy.base.tables import markdown_table
-from foilstudy.study.kernel.files import Records
-from foilstudy.study.verification.records import Benchmark, Quantity
+from foilstudy.study.kernel.plan import Records
+from foilstudy.study.verification.records import Benchmark, Checked, Curve, Picture, Plot
 
 
 def benchmarks_of(records: Records) -> list[Benchmark]:
     """All benchmarks of a run."""
-    return [Benchmark.of(record.result) for record in records["benchmarks"].values()]
+    return [_benchmark(record.result) for record in records["benchmarks"].values()]
+
+
+def _benchmark(result: dict) -> Benchmark:
+    plot = result["plot"]
+    if plot is not None:
+        plot = Plot(**plot | {"curves": [Curve(**curve) for curve in plot["curves"]]})
+    quantities = [Checked(**quantity) for quantity in result["quantities"]]
+    pictures = [Picture(**picture) for picture in result["pictures"]]
+    return Benchmark(**result | {"quantities": quantities, "plot": plot, "pictures": pictures})
 
 
 def problems(benchmarks: Iterable[Benchmark]) -> list[str]:
@@ -29,7 +38,7 @@ def rows(benchmarks: Iterable[Benchmark]) -> list[dict]:
             rate = benchmark.rate(q)
             row = {"benchmark": benchmark.name, "element": benchmark.element, "quantity": q.name}
             row |= {"unit": q.unit, "reference": f"{q.reference:.7g}", "source": q.source}
-            row |= {"elements": q.meshes[-1], "value": f"{q.values[-1]:.7g}"}
+            row |= {"elements": int(q.meshes[-1]), "value": f"{q.values[-1]:.7g}"}
             row["relative_error"] = f"{q.errors[-1]:.2e}"
             row["order"] = f"{rate:.2f}" if np.isfinite(rate) else ""
             row["expected_order"] = q.expected_rate
@@ -61,20 +70,20 @@ def _row(pair: Sequence[Benchmark], place: int) -> list[str]:
     cells = [pair[0].title if place == 0 else "", q.name, _value(q), q.source]
     for benchmark in pair:
         mine = benchmark.quantities[place]
-        cells += [str(mine.meshes[-1]), _percent(mine), _order(benchmark, mine)]
+        cells += [f"{mine.meshes[-1]:g}", _percent(mine), _order(benchmark, mine)]
     return cells
 
 
-def _value(quantity: Quantity) -> str:
+def _value(quantity: Checked) -> str:
     unit = f" {quantity.unit}" if quantity.unit not in ("", "1") else ""
     return f"{quantity.reference:.5g}{unit}"
 
 
-def _percent(quantity: Quantity) -> str:
+def _percent(quantity: Checked) -> str:
     return f"{100 * quantity.errors[-1]:+.2g} %" if quantity.errors[-1] else "0"
 
 
-def _order(benchmark: Benchmark, quantity: Quantity) -> str:
+def _order(benchmark: Benchmark, quantity: Checked) -> str:
     rate = benchmark.rate(quantity)
     if not np.isfinite(rate):
         return "-"

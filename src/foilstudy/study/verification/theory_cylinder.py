@@ -74,10 +74,8 @@ def frequencies(
 
     Parameters
     ----------
-    cylinder : Cylinder
     edges : tuple of int
         `CLAMPED`, `DIAPHRAGM` or `FREE`, both alike.
-    n : int
     count : int
         How many; rigid motions count.
 
@@ -99,23 +97,6 @@ def frequencies(
         columns.append(solve_triangular(mass_root, stresses.T, trans="T").T)
     values = svdvals(np.concatenate(columns, axis=1))
     return values[::-1][:count] / (2 * np.pi)
-
-
-def diaphragm_frequency(cylinder: Cylinder, m: int, n: int) -> float:
-    """Lowest of the three frequencies of the exact mode sin(m pi z / L) cos(n theta), Hz."""
-    stiffness = _wave_stiffness(cylinder, cylinder.strains(n), m * np.pi / cylinder.length)
-    return float(np.sqrt(eigh(stiffness, eigvals_only=True)[0] / cylinder.mass) / (2 * np.pi))
-
-
-def rayleigh_frequency(cylinder: Cylinder, n: int) -> float:
-    """Frequency of the inextensional motion of a free cylinder that is alike at every height, Hz.
-
-    Lord Rayleigh, Theory of Sound, 2nd ed., 1894, section 235c:
-    omega^2 = D n^2 (n^2 - 1)^2 / (rho t R^4 (n^2 + 1)), with the plate stiffness D.
-    """
-    bending = cylinder.law()[3, 3]
-    omega2 = bending * (n * (n**2 - 1)) ** 2 / (cylinder.mass * cylinder.radius**4 * (n**2 + 1))
-    return float(np.sqrt(omega2) / (2 * np.pi))
 
 
 def classical_buckling_stress(cylinder: Cylinder) -> float:

@@ -21,7 +21,6 @@ class Roof:
 
     Attributes
     ----------
-    cylinder : Cylinder
     half_angle : float
         rad, from the crown to the edge.
     weight : float
@@ -38,7 +37,6 @@ def edge_deflection(roof: Roof, terms: int = 60, functions: int = 24) -> float:
 
     Parameters
     ----------
-    roof : Roof
     terms, functions : int
         Sine terms, of which the even ones do nothing, and polynomials per displacement.
     """
