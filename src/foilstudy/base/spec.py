@@ -48,8 +48,8 @@ def restored(kind: type[T], content: dict[str, Any]) -> T:
     known = {item.name: item for item in fields(kind)}
     content = {name: value for name, value in content.items() if name != "kind" or "kind" in known}
     refusal = Refusal(
-        f"a recorded {kind.__name__} has the fields {', '.join(content)}, not {', '.join(known)}; "
-        "it is from another release: compute the record again."
+        f"the record is from another release: its {kind.__name__} has {', '.join(content)}, not "
+        f"{', '.join(known)}; compute it again."
     )
     if content.keys() != known.keys():
         raise refusal

@@ -53,9 +53,6 @@ def contents_of(task: ResponseTask, crumple_path: Path, refinements: int = 0) ->
             f"{crumple_path}: its status is {status} ({attributes.get('message', 'no message')}); "
             "only an equilibrium is exported, so relax it further or take another seed."
         )
-    crumpled = Crumpled.of_record(values, attributes)
-    for _ in range(refinements):
-        crumpled = crumpled.refined()
     origin = {
         "thickness_um": f"{task.thickness_um:g}",
         "reference_height_mm": f"{task.reference_height_mm:g}",
@@ -64,6 +61,9 @@ def contents_of(task: ResponseTask, crumple_path: Path, refinements: int = 0) ->
         "crumple_git_commit": str(attributes["git_commit"]),
     }
     try:
+        crumpled = Crumpled.of_record(values, attributes)
+        for _ in range(refinements):
+            crumpled = crumpled.refined()
         return Contents.of(crumpled, dynamics_of(task.dynamics), origin | provenance())
     except Refusal as problem:
         raise Refusal(f"{crumple_path}: {problem}") from None
