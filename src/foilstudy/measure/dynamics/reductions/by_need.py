@@ -1,4 +1,4 @@
-"""As many modes as a tolerance needs, for the reductions that keep modes below a cut-off."""
+"""Reductions that keep modes below a cut-off, and as many modes as a tolerance needs."""
 
 from __future__ import annotations
 
@@ -31,6 +31,26 @@ class ByNeed:
     def reduce(self, structure: Structure) -> ReducedModel:
         """See `Reduction`."""
         return with_enough_modes(structure, self.kind, self.wanted)
+
+
+@dataclass(frozen=True)
+class Modal:
+    """What reductions with a cut-off have in common.
+
+    Attributes
+    ----------
+    cutoff_hz : float
+    wanted : Wanted, optional
+        What the error is estimated for.
+    """
+
+    cutoff_hz: float
+    wanted: Wanted | None = None
+
+    @classmethod
+    def for_band(cls, wanted: Wanted, cutoff_hz: float | None = None) -> Reduction:
+        """See `Reduction`; without a cut-off, as many modes as the tolerance needs."""
+        return ByNeed(cls, wanted) if cutoff_hz is None else cls(cutoff_hz, wanted)
 
 
 def with_enough_modes(

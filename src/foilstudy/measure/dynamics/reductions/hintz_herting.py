@@ -7,35 +7,17 @@ Analysis and Design 1 (1985) 153-164.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from foilstudy.linalg import modes_below
-from foilstudy.measure.dynamics.accuracy import Wanted, judged
-from foilstudy.measure.dynamics.reduction import ReducedModel, Reduction, project
-from foilstudy.measure.dynamics.reductions.by_need import ByNeed
+from foilstudy.measure.dynamics.accuracy import judged
+from foilstudy.measure.dynamics.reduction import ReducedModel, project
+from foilstudy.measure.dynamics.reductions.by_need import Modal
 from foilstudy.measure.dynamics.structure import INTERFACE, Structure, bordered
 
 
-@dataclass(frozen=True)
-class HintzHerting:
-    """Keep every free-free mode below a cut-off frequency.
-
-    Attributes
-    ----------
-    cutoff_hz : float
-    wanted : Wanted, optional
-        What the error is estimated for.
-    """
-
-    cutoff_hz: float
-    wanted: Wanted | None = None
-
-    @classmethod
-    def for_band(cls, wanted: Wanted, cutoff_hz: float | None = None) -> Reduction:
-        """See `Reduction`; without a cut-off, as many modes as the tolerance needs."""
-        return ByNeed(cls, wanted) if cutoff_hz is None else cls(cutoff_hz, wanted)
+class HintzHerting(Modal):
+    """Keep every free-free mode below a cut-off frequency."""
 
     def reduce(self, structure: Structure) -> ReducedModel:
         """Reduced model of the structure.
