@@ -32,32 +32,29 @@ def basis_weights(at: np.ndarray, h1: float, h2: float) -> np.ndarray:
     return weights
 
 
-class _Tables:
-    """A strain sampling as arrays for the kernels."""
-
-    def __init__(self, sampling: StrainSampling, h1: float, h2: float):
-        at = sorted({m[1:] for m in sampling.membrane} | {b[:2] for b in sampling.bending})
-        place = {point: p for p, point in enumerate(at)}
-        bending = np.array([place[b[:2]] for b in sampling.bending])
+def tables(sampling: StrainSampling, h1: float, h2: float) -> sampled_kernel.Tables:
+    """A strain sampling as arrays for the kernels, on elements of h1 around and h2 along."""
+    at = sorted({m[1:] for m in sampling.membrane} | {b[:2] for b in sampling.bending})
+    place = {point: p for p, point in enumerate(at)}
+    bending = np.array([place[b[:2]] for b in sampling.bending])
+    pairs, factors = [], []
+    for part, forms in ((0, sampling.forms), (2, sampling.control)):
+        for k, a, b in zip(*np.nonzero(forms), strict=True):
+            if a <= b:
+                pairs.append((a, b, k, part))
+                factors.append(forms[k, a, b])
+    return sampled_kernel.Tables(
+        weights=basis_weights(at, h1, h2),
         # a_1 and a_2 are enough where only membrane strain is sampled
-        needs = np.where(np.isin(np.arange(len(at)), bending), _BASIS, 2)
-        pairs, factors = [], []
-        for part, forms in ((0, sampling.forms), (2, sampling.control)):
-            for k, a, b in zip(*np.nonzero(forms), strict=True):
-                if a <= b:
-                    pairs.append((a, b, k, part))
-                    factors.append(forms[k, a, b])
-        self.arguments = (
-            basis_weights(at, h1, h2),
-            needs,
-            np.array([component for component, *_ in sampling.membrane]),
-            np.array([place[m[1:]] for m in sampling.membrane]),
-            np.array(pairs),
-            np.array(factors),
-            bending,
-            np.array([b[2] for b in sampling.bending]),
-            sampling.fold,
-        )
+        needs=np.where(np.isin(np.arange(len(at)), bending), _BASIS, 2),
+        component=np.array([component for component, *_ in sampling.membrane]),
+        position=np.array([place[m[1:]] for m in sampling.membrane]),
+        pairs=np.array(pairs),
+        pair_weight=np.array(factors),
+        bending_position=bending,
+        bending_weight=np.array([b[2] for b in sampling.bending]),
+        fold=sampling.fold,
+    )
 
 
 @dataclass(frozen=True)
@@ -85,9 +82,9 @@ class SampledKernel:
     def __init__(self, section: Section, sampling: StrainSampling):
         patch = section.patch
         self._section = section
-        self._tables = _Tables(sampling, patch.size_around, patch.size_along).arguments
+        self._tables = tables(sampling, patch.size_around, patch.size_along)
         self._samples = sampled_kernel.reference_samples(
-            section.reference, patch.elements_around, *self._tables
+            section.reference, patch.elements_around, self._tables
         )
 
     def force(self, points: np.ndarray, out: np.ndarray) -> np.ndarray:
@@ -107,7 +104,7 @@ class SampledKernel:
             section.stiffness,
             bend,
             self._samples,
-            *self._tables,
+            self._tables,
         )
 
 

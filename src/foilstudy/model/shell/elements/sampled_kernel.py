@@ -1,15 +1,41 @@
-"""Energy, force and consistent tangent of a strain sampling, element by element.
-
-Every kernel takes the tables of `sampled._Tables`: the weights of the nine control points in the
-vectors a_1, a_2, a_11, a_22, a_12 at every position, how many of them that position needs, the
-component and position of every membrane sample, the pairs of samples with the law coefficient and
-energy part of each, their factors, and the positions, weights and fold measure of bending.
-"""
+"""Energy, force and consistent tangent of a strain sampling, element by element."""
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numba import njit
+
+
+class Tables(NamedTuple):
+    """A strain sampling as arrays.
+
+    Attributes
+    ----------
+    weights : ndarray, shape (positions, 9, 5)
+        Of the nine control points in the vectors a_1, a_2, a_11, a_22, a_12.
+    needs : ndarray of int, shape (positions,)
+        How many of these vectors a position needs.
+    component, position : ndarray of int, shape (membrane samples,)
+    pairs : ndarray of int, shape (pairs, 4)
+        Two membrane samples, the coefficient of the law that couples them, the energy it counts to.
+    pair_weight : ndarray, shape (pairs,)
+    bending_position : ndarray of int, shape (bending samples,)
+    bending_weight : ndarray, shape (bending samples,)
+    fold : float
+        See `StrainSampling`.
+    """
+
+    weights: np.ndarray
+    needs: np.ndarray
+    component: np.ndarray
+    position: np.ndarray
+    pairs: np.ndarray
+    pair_weight: np.ndarray
+    bending_position: np.ndarray
+    bending_weight: np.ndarray
+    fold: float
 
 
 @njit(cache=True, error_model="numpy", fastmath=True)
@@ -47,19 +73,14 @@ def _membrane_samples(a, component, position, out):
 
 
 @njit(cache=True, error_model="numpy", fastmath=True)
-def reference_samples(
-    x,
-    n_around,
-    weights,
-    needs,
-    component,
-    position,
-    pairs,
-    pair_weight,
-    bending_position,
-    bending_weight,
-    fold,
-):
+def reference_samples(x, n_around, tables):
+    """Samples of the stress-free shape, shape (elements along, around, membrane + 4 bending).
+
+    Membrane a_11 / 2, a_22 / 2 or a_12; bending b_11, b_22, 2 b_12 and the length of a_1 x a_2.
+    """
+    weights, needs = tables.weights, tables.needs
+    component, position = tables.component, tables.position
+    bending_position = tables.bending_position
     n_along, columns = x.shape[1] - 2, x.shape[2]
     m, n = component.size, bending_position.size
     out = np.empty((n_along, n_around, m + 4 * n))
@@ -83,23 +104,10 @@ def reference_samples(
 
 
 @njit(cache=True, error_model="numpy", fastmath=True)
-def force(
-    x,
-    n_around,
-    law,
-    bend,
-    ref,
-    weights,
-    needs,
-    component,
-    position,
-    pairs,
-    pair_weight,
-    bending_position,
-    bending_weight,
-    fold,
-    out,
-):
+def force(x, n_around, law, bend, ref, tables, out):
+    """Parts of the energy, J, as `ElementKernel.force` returns them; writes the force to `out`."""
+    weights, needs, component, position, pairs, pair_weight = tables[:6]
+    bending_position, bending_weight, fold = tables[6:]
     n_along, columns = x.shape[1] - 2, x.shape[2]
     m, n = component.size, bending_position.size
     nodes = np.empty((9, 3))
@@ -275,24 +283,10 @@ def _bending_hessian(v, c, bend, ref4, fold, stressed, grad, hess):
 
 
 @njit(cache=True, error_model="numpy", fastmath=True)
-def assemble(
-    x,
-    n_around,
-    law,
-    bend,
-    ref,
-    weights,
-    needs,
-    component,
-    position,
-    pairs,
-    pair_weight,
-    bending_position,
-    bending_weight,
-    fold,
-    stressed,
-):
+def assemble(x, n_around, law, bend, ref, tables, stressed):
     """Blocks of the tangent, shape (rows, columns, 5, 5, 3, 3): control point, neighbour."""
+    weights, needs, component, position, pairs, pair_weight = tables[:6]
+    bending_position, bending_weight, fold = tables[6:]
     rows, columns = x.shape[1], x.shape[2]
     n_along = rows - 2
     m, n = component.size, bending_position.size
