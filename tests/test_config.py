@@ -441,6 +441,14 @@ def test_element_size_given_in_metres():
     assert "check that the value is in mm" in text
 
 
+@pytest.mark.parametrize("which", ["refinements", "relaxed_refinements"])
+def test_the_limit_of_elements_counts_either_refinement(which):
+    stiffness = {"refinements": 0, "relaxed_refinements": 0} | {which: 2}
+    content = study(mesh={"element_size_mm": 1.25})
+    assert "refined 2 times" in problem_of(content | {"stiffness": stiffness})
+    load_config(content | {"stiffness": dict.fromkeys(stiffness, 0)})
+
+
 def test_smooth_imperfection_that_the_mesh_cannot_follow():
     imperfection = {"kind": "smoothed", "correlation_length_mm": 3}
     text = problem_of(study(imperfection=imperfection))

@@ -10,9 +10,11 @@ import yaml
 
 from foilstudy import load_config, open_cube
 from foilstudy.base.record import read_record, write_record
+from foilstudy.present.report.health import assess
 from foilstudy.study.sweep.crumple import crumple_job
 from foilstudy.study.sweep.cube import gather
 from foilstudy.study.sweep.cylinder import cylinder_bounds
+from foilstudy.study.sweep.quantities import quantities
 from foilstudy.study.sweep.respond import respond_job
 
 CONFIG = load_config(
@@ -120,6 +122,29 @@ def test_spoilt_cells_are_flagged_and_empty(cube):
             # without a refinement there is no refined value
             if "refined" not in name and not name.endswith(("_converged", "_mesh_error")):
                 assert np.isfinite(variable).any(), name
+
+
+def test_a_record_of_refining_counts_only_where_the_study_asks_for_it(results, cube, tmp_path):
+    """One left by an earlier setting is not read; one that did not settle is flagged."""
+    shutil.copytree(results, tmp_path, dirs_exist_ok=True)
+    for cell in CONFIG.cells():
+        attributes = {"status": "converged", "message": "relaxed"}
+        values = {"prestressed_stiffness_converged": np.array([1.0, 2.0])}
+        if cell.seed == 0:
+            attributes = {"status": "not_converged", "message": "refinement 1: step limit"}
+            values = {}
+        write_record(folder_of(tmp_path, cell) / "refined.nc", quantities(values), attributes)
+    ignored = gather(CONFIG, tmp_path, tmp_path / "without.nc")
+    xr.testing.assert_equal(ignored, cube)
+    asked = load_config(CONFIG.model_dump(mode="json") | {"stiffness": {"relaxed_refinements": 1}})
+    relaxed = gather(asked, tmp_path, tmp_path / "with.nc")
+    stopped = relaxed.isel(thickness=0, overlength=0, seed=0)
+    assert (stopped.status, stopped.refined_status) == ("converged", "not_converged")
+    assert str(stopped.message.values).endswith("; relaxed again: refinement 1: step limit")
+    (flagged,) = [c for c in assess(relaxed).flagged if c.status == "converged"]
+    assert (flagged.thickness_um, flagged.seed) == (250, 0)
+    whole = relaxed.isel(thickness=1, overlength=0, seed=1)
+    assert whole.refined_status == "converged" and whole.prestressed_stiffness_converged[1] == 2.0
 
 
 def test_every_variable_has_units_and_a_name(cube):

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from foilstudy.base.costs import Cost, measured, peak_memory_mb
+from foilstudy.base.costs import Cost, measured
 from foilstudy.base.errors import ConfigError
 from foilstudy.base.tables import csv_text, markdown_table
 from foilstudy.study.kernel.files import measure, present, problems, read_record, read_records
@@ -179,7 +179,7 @@ def test_costs_of_nested_blocks_are_apart():
             pass
     assert outer.seconds >= large.seconds + small.seconds
     assert outer.cpu_seconds >= large.cpu_seconds > small.cpu_seconds
-    assert outer.peak_memory_mb == large.peak_memory_mb <= peak_memory_mb()
+    assert outer.peak_memory_mb == large.peak_memory_mb > 0
     if sys.platform == "linux":
         assert large.peak_memory_mb > small.peak_memory_mb + 100
 

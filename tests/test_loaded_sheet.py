@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from conftest import FEP, rotation
 
+from foilstudy.linalg import factorise
 from foilstudy.model.foil import Material
 from foilstudy.model.patch import Patch, fitted_control_points
 from foilstudy.model.shell.shell import Shell
@@ -18,6 +19,7 @@ from foilstudy.model.supports.edges import (
 from foilstudy.model.supports.interpolation import as_vector
 from foilstudy.model.supports.loads import DeadLoad, EdgeMoment, area_load, edge_load, point_load
 from foilstudy.solve.equilibrium.newton import minimise
+from foilstudy.solve.loading import buckling
 from foilstudy.solve.loading.buckling import buckling_modes
 from foilstudy.solve.loading.loaded_sheet import LoadedSheet
 from foilstudy.solve.loading.path import follow_load
@@ -226,6 +228,25 @@ def test_what_remains_to_buckling_is_less_by_the_load_that_acts():
     path = follow_load(loaded, [0.6 * whole])
     rest = buckling_modes(loaded.at(0.6 * whole), 1, path.equilibria[-1].points)
     assert rest.factors[0] == pytest.approx(0.4 * whole, rel=1e-3)
+
+
+def test_the_rate_of_the_tangent_is_that_along_the_path_also_where_the_load_turns_with_the_edge():
+    sheet = strip(6)
+    held = constraints(sheet.patch, {"bottom": clamped(sheet.patch, sheet.reference, "bottom")})
+    moment = EdgeMoment(sheet.patch, sheet.reference, "top", np.array([0, -1.0, 0]))
+    factor, step = 5.0, 0.005  # turns the end by 0.3; a difference over the step is right to 0.2 %
+    loaded = LoadedSheet(sheet, held, moment, factor)
+    path = follow_load(loaded, [factor - step, factor, factor + step])
+    tangents = [
+        loaded.at(at.factor).hessian(loaded.unknowns(at.points)) for at in path.equilibria[-3:]
+    ]
+    along_path = (tangents[2] - tangents[0]) / (2 * step)
+    q = loaded.unknowns(path.equilibria[-2].points)
+    _, force = moment.work_and_force(loaded.points(q))
+    velocity = factorise(tangents[1]).solve(held.reduced(force))
+    rate = buckling._tangent_rate(loaded, q, velocity)
+    of_load = held.reduced_matrix(moment.stiffness(loaded.points(q)))
+    assert abs(rate - along_path).max() < 1e-2 * abs(of_load).max()
 
 
 def test_a_plate_buckles_at_the_loads_of_kirchhoff():

@@ -22,6 +22,7 @@ from foilstudy.solve.problem import Problem
 from foilstudy.solve.relaxation import Ramp, Scheme, StoppingRule, relax
 from foilstudy.solve.relaxation.damping.adaptive_viscous import AdaptiveViscousDamping
 from foilstudy.solve.relaxation.mass.spectral import SpectralMassScaling
+from foilstudy.solve.residual import relative_residual as solve_residual
 
 FREE = slice(RING_ROWS, -RING_ROWS)
 SAFETY = 1.5
@@ -194,6 +195,15 @@ def test_an_unstable_mass_is_reported_as_divergence():
     result = relaxed(imperfect_sheet(20e-3), 0.04, ramp_steps=500, steps_max=500, safety=0.05)
     assert result.status == "diverged"
     assert "unstable" in result.message
+    assert not result.residual < 1  # what is not a number must not look like an equilibrium
+
+
+@pytest.mark.parametrize(
+    ("norm", "scale", "residual"),
+    [(0.0, 0.0, 0.0), (1.0, 0.0, np.inf), (1.0, 4.0, 0.25), (1.0, np.nan, np.nan)],
+)
+def test_a_residual_without_a_scale_is_zero_only_where_nothing_acts(norm, scale, residual):
+    np.testing.assert_equal(solve_residual(norm, scale), residual)
 
 
 # --- invariance of the result --------------------------------------------------------------------

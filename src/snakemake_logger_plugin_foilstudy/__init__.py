@@ -48,6 +48,7 @@ class LogHandler(LogHandlerBase):
         self._finished: list[int] = []
         self._started = time.monotonic()
         self._planned = False
+        self._first_end: float | None = None
 
     writes_to_stream = True
     writes_to_file = False
@@ -106,9 +107,12 @@ class LogHandler(LogHandlerBase):
 
     def _write_finished(self, done: int, total: int) -> None:
         elapsed = time.monotonic() - self._started
-        # The first jobs are no measure: compiling alone takes longer than most others together.
-        known = JOBS_BEFORE_ESTIMATE <= done < total
-        left = f", about {_clock(elapsed * (total - done) / done)} left" if known else ""
+        # From the first job's end: compiling, before it, takes longer than most jobs together.
+        if self._first_end is None:
+            self._first_end, self._first_done = elapsed, done
+        known = JOBS_BEFORE_ESTIMATE <= done < total and done > self._first_done
+        per_job = (elapsed - self._first_end) / (done - self._first_done) if known else 0.0
+        left = f", about {_clock(per_job * (total - done))} left" if known else ""
         for jobid in self._finished:
             name, logs = self._jobs.get(jobid, ("job", []))
             lines = _last_lines(logs, 1)

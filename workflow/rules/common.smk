@@ -131,7 +131,7 @@ def start_worker():
     log = Path(LOGS, "worker.log")
     log.parent.mkdir(parents=True, exist_ok=True)
     command = [sys.executable, "-P", f"{SCRIPTS}/worker.py"]
-    with log.open("w") as errors:
+    with log.open("a") as errors:  # a run of another study may be writing to it
         # -P keeps a script's own folder from hiding modules.
         worker = subprocess.Popen(
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=errors, text=True

@@ -66,7 +66,7 @@ rule cylinder:
     output:
         f"{RESULTS}/cylinder.nc",
     params:
-        study=STUDY.model_dump_json(include={"sheet", "material", "sweep", "mesh"}),
+        study=STUDY.cylinder_task(),
         version=VERSION,
     log:
         f"{LOGS}/cylinder.log",

@@ -32,8 +32,6 @@ class Cost:
 
 _open: list[Cost] = []
 """Blocks being measured, outermost first."""
-_forgotten_mb = 0.0
-"""Peak of this process before the system was made to forget it."""
 
 
 @contextmanager
@@ -58,16 +56,9 @@ def measured() -> Iterator[Cost]:
         _open.pop()
 
 
-def peak_memory_mb() -> float:
-    """Largest memory of this process so far, MB."""
-    return max(_forgotten_mb, _remembered_mb())
-
-
 def _note_peak() -> None:
     """Take the peak so far into every open block, before it is forgotten."""
-    global _forgotten_mb
     peak = _remembered_mb()
-    _forgotten_mb = max(_forgotten_mb, peak)
     for cost in _open:
         cost.peak_memory_mb = max(cost.peak_memory_mb, peak)
 

@@ -144,7 +144,7 @@ class StudyConfig(Section):
             self.sheet.diameter_mm,
             self.reference_heights_mm,
             self.thicknesses_um,
-            self.stiffness.refinements,
+            max(self.stiffness.refinements, self.stiffness.relaxed_refinements),
             self.imperfection.correlation_length_mm,
         )
 
@@ -263,6 +263,10 @@ class StudyConfig(Section):
             reference_height_mm=cell.reference_height_mm,
             seed=cell.seed,
         )
+
+    def cylinder_task(self) -> str:
+        """Everything that decides the bounds of the perfect cylinder, as JSON."""
+        return self.model_dump_json(include={"sheet", "material", "sweep", "mesh"})
 
     def to_yaml(self) -> str:
         """Full validated configuration as YAML, defaults included, for provenance."""

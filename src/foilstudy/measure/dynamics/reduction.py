@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -61,7 +62,7 @@ class ReducedModel:
 
     def clamped_eigenfrequencies(self) -> np.ndarray:
         """All eigenfrequencies with both rings held, ascending, Hz."""
-        return self.clamped_modes(self.size)[0]
+        return self._clamped[0].copy()
 
     def clamped_modes(self, count: int) -> tuple[np.ndarray, np.ndarray]:
         """First modes with both rings held.
@@ -73,12 +74,17 @@ class ReducedModel:
         shapes : ndarray, shape (interior, at most count)
             Mass-normalised displacements, m/sqrt(kg m2).
         """
+        frequencies, vectors = self._clamped
+        return frequencies[:count].copy(), self.basis @ vectors[:, :count]
+
+    @cached_property
+    def _clamped(self) -> tuple[np.ndarray, np.ndarray]:
+        """All frequencies with both rings held, Hz, and their generalised coordinates."""
         inner = slice(INTERFACE, None)
         if self.size == INTERFACE:
-            return np.empty(0), np.empty((self.basis.shape[0], 0))
+            return np.empty(0), np.empty((0, 0))
         values, vectors = eigh(self.stiffness[inner, inner], self.mass[inner, inner])
-        frequencies = np.sqrt(np.maximum(values[:count], 0.0)) / (2 * np.pi)
-        return frequencies, self.basis @ vectors[:, :count]
+        return np.sqrt(np.maximum(values, 0.0)) / (2 * np.pi), vectors
 
     def free_modes(self) -> tuple[np.ndarray, np.ndarray]:
         """All modes of the free structure; the eigenvalues of rigid motions are exactly zero.

@@ -21,7 +21,7 @@ _STAGES = {
 
 @dataclass(frozen=True)
 class FlaggedCell:
-    """A realisation that did not reach a converged equilibrium."""
+    """A realisation without a converged equilibrium, here or relaxed again, or without its band."""
 
     thickness_um: float
     overlength_percent: float
@@ -125,6 +125,9 @@ def _flagged(cube: xr.Dataset, status: xr.DataArray) -> tuple[FlaggedCell, ...]:
     if "valid_to_frequency" in cube:
         valid_to = cube["valid_to_frequency"].transpose(*_CELL).values
         wrong |= valid_to < float(cube["frequency"][-1])  # a reduced model that ends before
+    if "refined_status" in cube:
+        relaxed = cube["refined_status"].transpose(*_CELL).values
+        wrong |= ~np.isin(relaxed, ["", "converged"])
     for where in np.argwhere(wrong):
         cell = cube.isel(dict(zip(_CELL, where, strict=True)))
         cells.append(

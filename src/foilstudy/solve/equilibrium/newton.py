@@ -18,10 +18,11 @@ from typing import Protocol
 import numpy as np
 import scipy.sparse as sparse
 from scipy.linalg import eigh
-from scipy.sparse.linalg import LinearOperator, eigsh
+from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
 
 from foilstudy.linalg import Factorisation, SolveError, factorise
 from foilstudy.solve.equilibrium.quasi_newton import InverseHessian
+from foilstudy.solve.residual import relative_residual
 
 
 class Potential(Protocol):
@@ -64,8 +65,7 @@ class NewtonOptions:
     def residual(self, q: np.ndarray, gradient: np.ndarray) -> float:
         """Relative residual."""
         scale = self.scale(q) if callable(self.scale) else self.scale
-        norm = float(np.linalg.norm(gradient))
-        return norm / scale if scale > 0 else (np.inf if norm > 0 else 0.0)
+        return relative_residual(float(np.linalg.norm(gradient)), scale)
 
 
 @dataclass(frozen=True)
@@ -285,9 +285,12 @@ class _Search:
             return eigh(*dense, subset_by_index=(0, 0))[1][:, 0]
         inverse = LinearOperator((size, size), matvec=self._definite(hessian).solve, dtype=float)
         start = np.cos(np.arange(size, dtype=float))  # a fixed one gives the same bits
-        return eigsh(
-            hessian, 1, self._metric, sigma=-self._shift, OPinv=inverse, v0=start, tol=1e-4
-        )[1][:, 0]
+        try:
+            return eigsh(
+                hessian, 1, self._metric, sigma=-self._shift, OPinv=inverse, v0=start, tol=1e-4
+            )[1][:, 0]
+        except ArpackError as error:
+            raise _Stalled(f"the negative eigenvector was not found ({error})") from error
 
     def _result(
         self, status: str, iterations: int, count: int | None, why: str = ""

@@ -19,6 +19,7 @@ from foilstudy.solve.choices import SEARCHES
 from foilstudy.solve.equilibrium.newton import NewtonOptions, NewtonResult
 from foilstudy.solve.problem import Problem
 from foilstudy.solve.relaxation import Motion, Ramp, StoppingRule, relax
+from foilstudy.solve.residual import relative_residual
 
 _NO_MOTION = Ramp(0.0, 0)
 _FREE = slice(RING_ROWS, -RING_ROWS)
@@ -163,7 +164,7 @@ def settle(
     for each in range(options.rounds_max):
         residual = max(options.switch_residual / 3**each, options.residual_tolerance)
         left = options.relaxation_steps_max - steps
-        relaxed = relax(problem, motion, _NO_MOTION, _until(residual, left), points)
+        relaxed = relax(problem, motion, _NO_MOTION, StoppingRule(residual, left), points)
         points, steps = relaxed.points, steps + relaxed.steps
         if relaxed.status == "diverged":
             return SettleResult(
@@ -205,8 +206,7 @@ def _committed(problem: Problem, points: np.ndarray, residual: float) -> float:
     problem.commit(points)
     held = HeldSheet(problem, points)
     _, gradient = held.value_and_gradient(held.unknowns(points))
-    norm = float(np.linalg.norm(gradient))
-    return norm / held.ring_force if held.ring_force > 0 else (np.inf if norm > 0 else 0.0)
+    return relative_residual(float(np.linalg.norm(gradient)), held.ring_force)
 
 
 def _polish(
@@ -247,14 +247,9 @@ def stopped_at(
         m.
     """
     for residual in residuals:
-        rule = _until(residual, relaxation_steps_max)
+        rule = StoppingRule(residual, relaxation_steps_max)
         result = relax(problem, motion, _NO_MOTION, rule, points)
         if result.status != "converged":
             return
         points = result.points
         yield residual, points
-
-
-def _until(residual: float, steps_max: int) -> StoppingRule:
-    """Stop at a residual, however the sheet may still move."""
-    return StoppingRule(residual, steps_max)

@@ -101,11 +101,18 @@ def buckling_modes(
 
 
 def _tangent_rate(loaded: LoadedSheet, q: np.ndarray, velocity: np.ndarray) -> sparse.csr_matrix:
-    """Derivative of the tangent along a motion, by central difference."""
+    """Derivative of the tangent by the load factor, by central difference.
+
+    Along the motion, with the load that goes with it: a load that follows the shape has a tangent
+    of its own.
+    """
     patch = loaded.sheet.patch
     largest = np.abs(loaded.constraints.displacement(velocity)).max()
     step = _STEP * min(patch.size_around, patch.size_along) / largest
-    ahead, behind = (loaded.hessian(q + side * step * velocity) for side in (1, -1))
+    ahead, behind = (
+        loaded.at(loaded.factor + side * step).hessian(q + side * step * velocity)
+        for side in (1, -1)
+    )
     return ((ahead - behind) / (2 * step)).tocsr()
 
 

@@ -58,20 +58,15 @@ class LoadPath:
     message: str
     equilibria: tuple[Equilibrium, ...]
 
-    @property
-    def iterations(self) -> int:
-        """Newton iterations of the whole path."""
-        return sum(equilibrium.iterations for equilibrium in self.equilibria)
-
 
 def follow_load(
     loaded: LoadedSheet, factors: Iterable[float], start: np.ndarray | None = None
 ) -> LoadPath:
     """Stable equilibria at growing load factors, each sought from the one before.
 
-    Where a step fails it is halved, and then grows again. At a limit point the path does not
-    turn back: the search falls to another stable equilibrium at the same load, as the structure
-    would.
+    A step that fails is halved, six times at most on the way to a factor. At a limit point the
+    path does not turn back: the search falls to another stable equilibrium at the same load, as
+    the structure would.
 
     Parameters
     ----------

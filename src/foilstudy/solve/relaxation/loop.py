@@ -10,6 +10,7 @@ from numba import njit
 from foilstudy.model.patch import RING_ROWS
 from foilstudy.solve.problem import Problem
 from foilstudy.solve.relaxation.scheme import Motion
+from foilstudy.solve.residual import relative_residual
 
 
 @dataclass(frozen=True)
@@ -233,7 +234,7 @@ class _Recorder:
     def record(self, step, force, energies, kinetic) -> _Entry:
         free = force[:, RING_ROWS:-RING_ROWS]
         rings = np.sqrt(np.sum(force[:, :RING_ROWS] ** 2) + np.sum(force[:, -RING_ROWS:] ** 2))
-        residual = np.sqrt(np.sum(free**2)) / rings if rings > 0 else 0.0
+        residual = relative_residual(np.sqrt(np.sum(free**2)), rings)
         reaction = -float(np.sum(force[2, -RING_ROWS:]))
         self._rows.append(
             (step, -self._ramp.shortening_at(step), reaction, *energies, kinetic, residual)

@@ -49,11 +49,14 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
     }
     status = np.full(cells, "", dtype=object)
     message = np.full(cells, "", dtype=object)
+    refined = study.stiffness.relaxed_refinements > 0  # records of an earlier setting stay around
+    refined_status = np.full(cells, "", dtype=object)
     position = {cell: index for index, cell in zip(np.ndindex(cells), study.cells(), strict=True)}
     commits: set[str] = set()
     for cell, index in position.items():
-        record = _read_cell(results, cell)
+        record = _read_cell(results, cell, refined)
         status[index], message[index] = record.status, record.message
+        refined_status[index] = record.refined_status
         commits |= record.commits
         for name in data.keys() & record.values.keys():
             data[name][index] = record.values[name] * variables[name].cube_scale
@@ -85,6 +88,9 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
         cube[name] = (what.dims, values, {"units": what.units, "long_name": what.words})
     cube["status"] = (_CELL, status, {"units": "1", "long_name": "outcome of the realisation"})
     cube["message"] = (_CELL, message, {"units": "1", "long_name": "reason of the status"})
+    if refined:
+        words = {"units": "1", "long_name": "outcome of relaxing again on refined meshes"}
+        cube["refined_status"] = (_CELL, refined_status, words)
     _write(cube, path)
     return cube
 
@@ -118,9 +124,10 @@ class _Cell:
     status: str
     message: str
     commits: set[str]
+    refined_status: str = ""
 
 
-def _read_cell(results: Path, cell: Cell) -> _Cell:
+def _read_cell(results: Path, cell: Cell, refined: bool) -> _Cell:
     folder = results / "realisations" / cell.thickness_id / cell.overlength_id / str(cell.seed)
     crumpled, crumple_attributes = read_record(folder / "crumple.nc")
     responded, attributes = read_record(folder / "response.nc")
@@ -128,11 +135,14 @@ def _read_cell(results: Path, cell: Cell) -> _Cell:
     commits = {a.get("git_commit", "unknown") for a in (crumple_attributes, attributes)}
     if status not in USABLE:
         return _Cell({}, status, message, commits)  # whatever the crumple holds, it has failed
-    refined: dict[str, np.ndarray] = {}
-    if (folder / "refined.nc").exists():
-        refined, refined_attributes = read_record(folder / "refined.nc")
-        commits.add(refined_attributes.get("git_commit", "unknown"))
-    return _Cell(crumpled | responded | refined, status, message, commits)
+    if not refined:
+        return _Cell(crumpled | responded, status, message, commits)
+    relaxed, attributes = read_record(folder / "refined.nc")
+    commits.add(attributes.get("git_commit", "unknown"))
+    if attributes["status"] != "converged":
+        message = f"{message}; relaxed again: {attributes['message']}"
+    values = crumpled | responded | relaxed
+    return _Cell(values, status, message, commits, attributes["status"])
 
 
 def _write(cube: xr.Dataset, path: Path) -> None:

@@ -28,7 +28,7 @@ def cylinder_bounds(study: StudyConfig, path: Path) -> None:
     write_record(
         path,
         quantities({"cylinder_stiffness": bounds.reshape(shape)}),
-        {"task": study.model_dump_json(include={"sheet", "material", "sweep", "mesh"})},
+        {"task": study.cylinder_task()},
     )
 
 
