@@ -23,10 +23,10 @@ def frequency_grid(lowest: float, highest: float, count: int) -> np.ndarray:
     return grid
 
 
-def interface_dynamic_stiffness(
+def interface_receptance(
     model: ReducedModel, frequencies: np.ndarray, damping: Damping
 ) -> np.ndarray:
-    """D(omega) on the twelve ring motions, the inverse of the interface receptance.
+    """H(omega) of the twelve ring motions, both rings free.
 
     H(omega) = sum_j phi_j phi_j^T / (omega_j^2 - omega^2 + d_j) over all free modes of the reduced
     model, with the damping term d_j; rigid modes have omega_j = 0 exactly.
@@ -35,7 +35,7 @@ def interface_dynamic_stiffness(
     ----------
     model : ReducedModel
     frequencies : ndarray
-        Hz, positive, up to where the model is valid.
+        Hz, positive and rising, up to where the model is valid.
     damping : Damping
 
     Returns
@@ -45,7 +45,7 @@ def interface_dynamic_stiffness(
     Raises
     ------
     ValueError
-        If a frequency is not positive or beyond the validity of the model.
+        If the frequencies are not positive and rising, or go beyond the validity of the model.
     """
     frequencies = checked(frequencies)
     if frequencies.max() > model.valid_to_hz * (1 + 1e-12):
@@ -57,8 +57,14 @@ def interface_dynamic_stiffness(
     interface = shapes[:INTERFACE]
     omega = 2 * np.pi * frequencies[:, None]
     denominator = values - omega**2 + damping.modal(values, omega)
-    receptance = np.einsum("im,fm,jm->fij", interface, 1 / denominator, interface, optimize=True)
-    return np.linalg.inv(receptance)
+    return np.einsum("im,fm,jm->fij", interface, 1 / denominator, interface, optimize=True)
+
+
+def interface_dynamic_stiffness(
+    model: ReducedModel, frequencies: np.ndarray, damping: Damping
+) -> np.ndarray:
+    """D(omega) on the twelve ring motions, the inverse of `interface_receptance`."""
+    return np.linalg.inv(interface_receptance(model, frequencies, damping))
 
 
 def checked(frequencies: np.ndarray) -> np.ndarray:
