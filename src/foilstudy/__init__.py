@@ -21,7 +21,7 @@ _LAZY = {
     "DynamicsOptions": "foilstudy.measure.dynamics.options",
     "Foil": "foilstudy.model.foil",
     "Imperfection": "foilstudy.model.foil",
-    "Material": "foilstudy.model.foil",
+    "Material": "foilstudy.model.materials",
     "Mesh": "foilstudy.pipeline.method",
     "Method": "foilstudy.pipeline.method",
     "StudyConfig": "foilstudy.config",

@@ -1,35 +1,10 @@
-"""What is simulated, as plain data in SI units: material, foil and imperfection."""
+"""What is simulated, as plain data in SI units: foil and imperfection."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-
-@dataclass(frozen=True)
-class Material:
-    """Isotropic material.
-
-    Attributes
-    ----------
-    youngs_modulus : float
-        Pa.
-    poisson_ratio : float
-    density : float
-        kg/m3.
-    yield_stress : float
-        Pa; only used to report which share of the surface a linear elastic model overloads.
-    name : str
-        For people; it decides nothing.
-    law : str
-        A name of `foilstudy.model.shell.material.LAWS`.
-    """
-
-    youngs_modulus: float
-    poisson_ratio: float
-    density: float
-    yield_stress: float
-    name: str = ""
-    law: str = "elastic"
+from foilstudy.model.materials import Material
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Isotropic foil materials known by name.
+"""Isotropic foil materials, and those known by name.
 
 Room-temperature data-sheet values; a foil differs from its data sheet by ten per cent and more
 (grade, rolling direction, rate), so measured constants are always the better choice. A material
@@ -10,9 +10,34 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from foilstudy.model.foil import Material
+__all__ = ["MATERIALS", "Material", "MaterialConstants", "material"]
 
-__all__ = ["MATERIALS", "MaterialConstants", "material"]
+
+@dataclass(frozen=True)
+class Material:
+    """Isotropic material.
+
+    Attributes
+    ----------
+    youngs_modulus : float
+        Pa.
+    poisson_ratio : float
+    density : float
+        kg/m3.
+    yield_stress : float
+        Pa; only used to report which share of the surface a linear elastic model overloads.
+    name : str
+        For people; it decides nothing.
+    law : str
+        A name of `foilstudy.model.shell.material.LAWS`.
+    """
+
+    youngs_modulus: float
+    poisson_ratio: float
+    density: float
+    yield_stress: float
+    name: str = ""
+    law: str = "elastic"
 
 
 @dataclass(frozen=True)

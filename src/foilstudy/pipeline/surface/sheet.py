@@ -7,7 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from foilstudy.model.foil import Foil, Material
+from foilstudy.model.foil import Foil
+from foilstudy.model.materials import Material
 from foilstudy.model.patch import cylinder_control_points
 from foilstudy.model.shell.elements.corner import Corner
 from foilstudy.pipeline.crumpled import Crumpled

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from foilstudy.model.foil import Material
+from foilstudy.model.materials import Material
 
 
 @dataclass(frozen=True)
