@@ -45,6 +45,9 @@ class Contents:
     options: DynamicsOptions
     provenance: Mapping[str, str] = field(default_factory=dict)
 
+    def __repr__(self) -> str:
+        return f"<Contents: {self.crumple.foil}; {self.options}>"
+
     @classmethod
     def of(
         cls,

@@ -10,6 +10,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from foilstudy.base.errors import Refusal
+from foilstudy.base.ranges import require_number
+from foilstudy.base.registry import did_you_mean
+
 __all__ = ["MATERIALS", "Material", "MaterialConstants", "material"]
 
 
@@ -38,6 +42,19 @@ class Material:
     yield_stress: float
     name: str = ""
     law: str = "elastic"
+
+    def __post_init__(self):
+        require_number("Young's modulus of a material", self.youngs_modulus, "Pa", above=0)
+        require_number("Poisson's ratio of a material", self.poisson_ratio, above=-1, most=0.5)
+        require_number("density of a material", self.density, "kg/m3", above=0)
+        require_number("yield stress of a material", self.yield_stress, "Pa", above=0)
+
+    def __repr__(self) -> str:
+        return (
+            f"<Material: {self.name or 'without a name'}, {1e-6 * self.youngs_modulus:g} MPa, "
+            f"Poisson {self.poisson_ratio:g}, {self.density:g} kg/m³, yield "
+            f"{1e-6 * self.yield_stress:g} MPa, {self.law}>"
+        )
 
 
 @dataclass(frozen=True)
@@ -135,14 +152,19 @@ MATERIALS: dict[str, MaterialConstants] = {
 }
 
 
-def material(name: str) -> Material:
-    """A known material in SI units.
+def material(name: str | Material) -> Material:
+    """A known material in SI units; a material is returned as it is.
 
     Raises
     ------
-    ValueError
+    Refusal
         Naming the known ones.
     """
+    if isinstance(name, Material):
+        return name
     if name not in MATERIALS:
-        raise ValueError(f"{name!r} is not a known material; use one of {', '.join(MATERIALS)}.")
+        raise Refusal(
+            f"{name!r} is not a known material; {did_you_mean(name, MATERIALS)}use one of "
+            f"{', '.join(MATERIALS)}, or a Material with constants of your own."
+        )
     return MATERIALS[name].material(name)

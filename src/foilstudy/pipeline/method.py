@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from foilstudy.base.ranges import require_number
 from foilstudy.base.spec import choice_field
 from foilstudy.measure.choices import STRESS_REMOVALS
 from foilstudy.measure.stiffness.stress_removal import Reset, StressRemoval
@@ -33,6 +34,10 @@ class Mesh:
     element_size: float = 5e-3
     element: str = "corner"
 
+    def __post_init__(self):
+        require_number("element size of a mesh", self.element_size, "m", above=0)
+        ELEMENTS.choice(self.element)
+
     def patch(self, foil: Foil) -> Patch:
         """The patch of a foil."""
         return Patch.for_cylinder(foil.diameter, foil.reference_height, self.element_size)
@@ -56,3 +61,6 @@ class Method:
 
     path: Path = choice_field(PATHS, RelaxationPath)
     stress_removal: StressRemoval = choice_field(STRESS_REMOVALS, Reset)
+
+    def __repr__(self) -> str:
+        return f"<Method: path {self.path.kind}, stress removal {self.stress_removal.kind}>"

@@ -96,6 +96,10 @@ class EvenGrid:
     sharpest_hz: float
     bandwidth_hz: float
 
+    def __repr__(self) -> str:
+        lowest, highest = self.frequencies[[0, -1]]
+        return f"<EvenGrid: {lowest:g} to {highest:g} Hz, {self.words}>"
+
     @classmethod
     def of(
         cls, model: ReducedModel, damping: Damping, lowest_hz: float, highest_hz: float

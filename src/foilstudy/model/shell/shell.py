@@ -24,6 +24,10 @@ class Energies:
     bending: float
     stabilisation: float
 
+    def __repr__(self) -> str:
+        parts = f"{self.membrane:.4g}, {self.bending:.4g}, {self.stabilisation:.4g}"
+        return f"<Energies: membrane, bending, stabilisation {parts} J>"
+
     @property
     def total(self) -> float:
         return self.membrane + self.bending + self.stabilisation
@@ -48,12 +52,15 @@ class Shell:
         self.element = Corner() if element is None else element
         self._kernel = self.element.kernel(section)
 
+    def __repr__(self) -> str:
+        return f"<Shell: {self.section}, {self.element.name}>"
+
     @classmethod
     def elastic(
         cls,
         patch: Patch,
         reference: np.ndarray,
-        material: Material,
+        material: Material | str,
         thickness: float,
         element: Element | None = None,
     ) -> Shell:

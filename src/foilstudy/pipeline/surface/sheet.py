@@ -30,7 +30,7 @@ THICKNESS_TO_RADIUS_MAX = 1 / 20
 def sheet_from_grid(
     source: str | Path | np.ndarray | SurfaceGrid,
     thickness: float,
-    material: Material,
+    material: Material | str,
     limits: Limits = DEFAULT_LIMITS,
 ) -> Crumpled:
     """A crumpled shape from elsewhere as what the package measures.
@@ -47,6 +47,7 @@ def sheet_from_grid(
     thickness : float
         m.
     material : Material
+        Or the name of a known one.
     limits : Limits
         What is refused.
 
