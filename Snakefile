@@ -22,6 +22,7 @@ report: "workflow/report/workflow.rst"
 
 
 include: "workflow/rules/common.smk"
+include: "workflow/rules/stale.smk"
 include: "workflow/rules/realisations.smk"
 include: "workflow/rules/results.smk"
 include: "workflow/rules/export.smk"

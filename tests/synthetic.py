@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from foilstudy.base.outcome import USABLE
-from foilstudy.base.record import write_record
+from foilstudy.base.record import read_attributes, write_record
 from foilstudy.config.model import overlength_id, thickness_id
 from foilstudy.model.patch import knot_points
 from foilstudy.study.sweep.cube import CONVENTION
@@ -201,6 +201,17 @@ def write_records(cube, folder, element_mm=10.0):
         shapes = np.random.default_rng(s).standard_normal((3, 3, 6, 12))
         write_response(crumple, shapes)
         crumples.append(crumple)
+    return crumples
+
+
+def write_study(cube, folder):
+    """Write a cube and the records that it might have been gathered from."""
+    crumples = write_records(cube, folder)
+    for part in ("crumple", "response"):
+        digests = [read_attributes(path.with_name(f"{part}.nc"))["digest"] for path in crumples]
+        shape = cube["status"].shape
+        cube[f"{part}_digest"] = cube["status"].dims, np.reshape(digests, shape).astype(object)
+    write_cube(cube, folder / "cube.nc")
     return crumples
 
 

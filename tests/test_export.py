@@ -12,7 +12,7 @@ from conftest import DIAMETER, FOIL, GAP_HEIGHT, THICKNESS, cylinder
 from scipy.io import loadmat
 from test_workflow import changed, plan
 
-from foilstudy.base.record import write_record
+from foilstudy.base.record import read_attributes, write_record
 from foilstudy.command import main
 from foilstudy.config import Export, load_config
 from foilstudy.config.foils import foil_of
@@ -43,6 +43,7 @@ from foilstudy.pipeline.shape import Shape
 from foilstudy.pipeline.surface import SurfaceGrid, sheet_from_grid
 from foilstudy.pipeline.surface.fit import fitted_patch
 from foilstudy.study.sweep.export import contents_of, export_realisation
+from foilstudy.study.sweep.origins import crumple_origin, response_origin
 from foilstudy.study.sweep.quantities import quantities
 
 MODES = 4
@@ -476,11 +477,12 @@ def realisation(coarse_crumple, tmp_path):
     def record(status, message="as it should be"):
         attributes = described(foil_of(task), recipe_of(task))
         attributes |= {"status": status, "message": message}
-        write_record(folder / "crumple.nc", quantities(values), attributes)
+        write_record(folder / "crumple.nc", quantities(values), attributes, crumple_origin(task))
+        origin = response_origin(response, read_attributes(folder / "crumple.nc"))
+        write_record(folder / "response.nc", {}, {}, origin)
 
-    record("converged")
     response = study.response_task(cell)
-    write_record(folder / "response.nc", {}, {"task": response.model_dump_json()})
+    record("converged")
     return SimpleNamespace(folder=folder, task=response, record=record)
 
 
@@ -488,7 +490,7 @@ def test_realisation_leaves_the_formats_and_what_they_are(realisation):
     out = realisation.folder / "export"
     export_realisation(realisation.task, realisation.folder / "crumple.nc", out, "csv", "npz")
     names = sorted(path.name for path in out.iterdir())
-    assert names == ["README.txt", "frequency_response.csv", "shape.npz"]
+    assert names == ["README.txt", "frequency_response.csv", "manifest.json", "shape.npz"]
     readme = (out / "README.txt").read_text()
     assert all(FORMATS.choices[name].words in readme for name in ("csv", "npz"))
 
@@ -497,7 +499,7 @@ def test_realisation_without_equilibrium_leaves_its_reason_alone(realisation):
     realisation.record("not_converged", "residual 1e-3")
     out = realisation.folder / "export"
     export_realisation(realisation.task, realisation.folder / "crumple.nc", out, *FORMATS)
-    assert [path.name for path in out.iterdir()] == ["README.txt"]
+    assert {path.name for path in out.iterdir()} == {"README.txt", "manifest.json"}
     assert "not_converged (residual 1e-3)" in (out / "README.txt").read_text()
     with pytest.raises(ValueError, match="only an equilibrium is exported"):
         contents_of(realisation.task, realisation.folder / "crumple.nc")
@@ -508,7 +510,9 @@ def test_format_that_cannot_hold_the_damping_leaves_the_others(realisation):
     task = realisation.task.model_copy(update={"dynamics": dynamics})
     out = realisation.folder / "export"
     export_realisation(task, realisation.folder / "crumple.nc", out, "mat", "csv")
-    assert sorted(p.name for p in out.iterdir()) == ["README.txt", "frequency_response.csv"]
+    assert {p.name for p in out.iterdir()} == {
+        "README.txt", "frequency_response.csv", "manifest.json",
+    }  # fmt: skip
     assert "reduced.mat: not written" in (out / "README.txt").read_text()
 
 
@@ -594,7 +598,7 @@ def test_command_line_refuses_in_one_sentence(realisation):
     with pytest.raises(SystemExit, match=r"its status is diverged \(step 12\)"):
         main(["export", str(realisation.folder), "--format=csv"])
     (realisation.folder / "response.nc").unlink()
-    with pytest.raises(SystemExit, match=r"^\S+response.nc: No such file or directory; check path"):
+    with pytest.raises(SystemExit, match=r"^\S+response.nc: cannot be read .*No such file"):
         main(["export", str(realisation.folder), "--format=csv"])
 
 

@@ -17,6 +17,7 @@ from foilstudy.model.shell.yielding import beyond_yield_share
 from foilstudy.pipeline.crumple import crumple
 from foilstudy.pipeline.crumpled import Crumpled, described
 from foilstudy.solve.relaxation import History
+from foilstudy.study.sweep.origins import crumple_origin
 from foilstudy.study.sweep.outcome import Outcome, Values, outcome_of
 from foilstudy.study.sweep.quantities import quantities
 
@@ -34,7 +35,6 @@ def crumple_job(task: CrumpleTask, path: Path) -> None:
         "overlength_percent": task.overlength_percent,
         "seed": task.seed,
         "element": task.mesh.element,
-        "task": task.model_dump_json(),
     } | described(foil, recipe)
 
     def work() -> Outcome:
@@ -45,7 +45,7 @@ def crumple_job(task: CrumpleTask, path: Path) -> None:
         outcome = outcome_of(work)
     values = outcome.values | {"seconds_crumple": cost.seconds}
     attributes |= {"status": outcome.status, "message": outcome.message}
-    write_record(path, quantities(values), attributes)
+    write_record(path, quantities(values), attributes, crumple_origin(task))
     print(f"{outcome.status}: {outcome.message} ({cost.seconds:.1f} s)")
 
 
