@@ -478,12 +478,19 @@ def realisation(coarse_crumple, tmp_path):
         attributes = described(foil_of(task), recipe_of(task))
         attributes |= {"status": status, "message": message}
         write_record(folder / "crumple.nc", quantities(values), attributes, crumple_origin(task))
-        origin = response_origin(response, read_attributes(folder / "crumple.nc"))
+        respond()
+
+    def respond(**dynamics):
+        """A response with other dynamics than the study's."""
+        task = response.model_copy(
+            update={"dynamics": response.dynamics.model_copy(update=dynamics)}
+        )
+        origin = response_origin(task, read_attributes(folder / "crumple.nc"))
         write_record(folder / "response.nc", {}, {}, origin)
 
     response = study.response_task(cell)
     record("converged")
-    return SimpleNamespace(folder=folder, task=response, record=record)
+    return SimpleNamespace(folder=folder, task=response, record=record, respond=respond)
 
 
 def test_realisation_leaves_the_formats_and_what_they_are(realisation):
@@ -536,9 +543,7 @@ def test_command_line_writes_every_format_and_the_shape_comes_back(realisation, 
 
 def test_command_line_writes_what_it_can_and_says_what_it_could_not(realisation, capsys):
     """Structural damping has no matrix C: no reduced model, all else."""
-    dynamics = realisation.task.dynamics.model_copy(update={"damping": "structural"})
-    task = realisation.task.model_copy(update={"dynamics": dynamics})
-    write_record(realisation.folder / "response.nc", {}, {"task": task.model_dump_json()})
+    realisation.respond(damping="structural")
     main(["export", str(realisation.folder), "--format=all"])
     out, err = capsys.readouterr()
     folder = realisation.folder / "export"
@@ -554,11 +559,7 @@ def test_command_line_writes_what_it_can_and_says_what_it_could_not(realisation,
 
 def test_shapes_are_written_where_no_model_is_valid(realisation, capsys, monkeypatch):
     """Without a reduced model only the points alone can be; and the reduction is tried once."""
-    dynamics = realisation.task.dynamics.model_copy(
-        update={"reduction": "guyan", "shown_min_hz": 90.0}
-    )
-    task = realisation.task.model_copy(update={"dynamics": dynamics})
-    write_record(realisation.folder / "response.nc", {}, {"task": task.model_dump_json()})
+    realisation.respond(reduction="guyan", shown_min_hz=90.0)
     tries, reduced = [], DynamicsOptions.reduced
     monkeypatch.setattr(
         DynamicsOptions, "reduced", lambda *given: tries.append(given) or reduced(*given)
