@@ -197,7 +197,7 @@ def test_a_finished_study_counts(folder):
         lambda text: "",
         lambda text: "[]",
         lambda text: text.replace('"mean": 100.0', '"mean": 101.0'),
-        lambda text: text.replace(r'\"study\": \"tiny\"', r'\"study\": \"other\"'),
+        lambda text: text.replace(r"\"study\": \"tiny\"", r"\"study\": \"other\""),
     ],
 )
 def test_a_spoilt_record_and_what_is_made_of_it_are_made_again(folder, spoil):

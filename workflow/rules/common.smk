@@ -113,7 +113,7 @@ def claim_results():
             refuse_results(problem.strerror, folder)
         try:
             fcntl.flock(RESULTS_LOCKS[-1], fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except (BlockingIOError, PermissionError):
+        except BlockingIOError:
             remedy = ", or give this one another study.name" if folder == RESULTS else ""
             refuse(f"{folder}: another run is writing this study; wait until it ends{remedy}.")
         except OSError as problem:

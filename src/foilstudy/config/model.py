@@ -150,7 +150,8 @@ class StudyConfig(Section):
 
     def mesh_of(self, thickness_um: float) -> Mesh:
         """Mesh of a thickness; with ``auto`` its element size is that of the stated error."""
-        return self.mesh.resolved(self.sheet.diameter_mm / 2, thickness_um)
+        shortest = self.reference_heights_mm[0]
+        return self.mesh.resolved(self.sheet.diameter_mm, shortest, thickness_um)
 
     def _thickness_problems(self) -> Iterator[str]:
         limit = 1e3 * self.sheet.diameter_mm / 2 * THICKNESS_TO_RADIUS_MAX

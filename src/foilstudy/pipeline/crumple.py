@@ -22,6 +22,7 @@ def crumple(
     ----------
     foil : Foil
     mesh : Mesh, optional
+        By default `Mesh.resolving` the foil.
     imperfection : Imperfection, optional
         Its seed chooses the realisation.
     method : Method, optional
@@ -48,7 +49,9 @@ def uncrumpled(
     method: Method | None = None,
 ) -> Crumpled:
     """The imperfect cylinder from which `crumple` starts."""
-    recipe = Recipe(mesh or Mesh(), imperfection or Imperfection(), method or Method())
+    recipe = Recipe(
+        mesh or Mesh.resolving(foil), imperfection or Imperfection(), method or Method()
+    )
     patch = recipe.mesh.patch(foil)
     reference = imperfect_cylinder(patch, foil, recipe.imperfection)
     element = recipe.mesh.element_at_work()
