@@ -65,6 +65,15 @@ def test_help_lists_every_command_with_its_purpose(capsys):
         assert f"{name} {purpose}" in text
 
 
+def test_help_shows_the_one_call_in_python(capsys):
+    text = spoken(capsys, "--help")
+    lines = [line.strip() for line in text.splitlines()]
+    code = lines[lines.index("from foilstudy import Foil, crumple") :]
+    space = {}
+    exec("\n".join(code).replace("print", "result = "), space)
+    assert space["result"].shape == (2,) and (space["result"] > 1e3).all()
+
+
 def test_help_of_export_names_every_format(capsys):
     text = spoken(capsys, "export", "--help")
     assert all(re.search(rf"\b{name}\b", text) for name in [*FORMATS, "all"])

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from synthetic import FAILED, MODES_PER_HZ, make_cube
 
 from foilstudy.measure.dynamics.mac import mac
-from foilstudy.model.foil import Material
+from foilstudy.model.materials import Material
 from foilstudy.plot.mac import ModeLabels, draw_mac
 from foilstudy.present.report.modes import modal_density_findings, overlength_findings
 from foilstudy.present.statistics.modal_density import (

@@ -110,6 +110,14 @@ class StudyConfig(Section):
     export: Export = Field(default_factory=Export, description="Files for other tools.")
     report: Report = Field(default_factory=Report, description="Report page.")
 
+    def __repr__(self) -> str:
+        counts = len(self.thicknesses_um), len(self.reference_heights_mm), self.sweep.realisations
+        return "<StudyConfig: {}, {} thicknesses x {} heights x {} realisations>".format(
+            self.study.name, *counts
+        )
+
+    __str__ = __repr__
+
     @model_validator(mode="after")
     def _check_across_sections(self) -> StudyConfig:
         problems = list(self._height_problems()) or list(mesh_problems(self.mesh, self._mesh_use()))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Self
 
+from foilstudy.base.ranges import require_number
 from foilstudy.base.spec import choice_field
 from foilstudy.measure.choices import STRESS_REMOVALS
 from foilstudy.measure.stiffness.stress_removal import Reset, StressRemoval
@@ -34,6 +35,10 @@ class Mesh:
 
     element_size: float
     element: str = "corner"
+
+    def __post_init__(self):
+        require_number("element size of a mesh", self.element_size, "m", above=0)
+        ELEMENTS.choice(self.element)
 
     @classmethod
     def resolving(cls, foil: Foil, energy_error: float = 0.1) -> Self:
@@ -66,3 +71,6 @@ class Method:
 
     path: Path = choice_field(PATHS, RelaxationPath)
     stress_removal: StressRemoval = choice_field(STRESS_REMOVALS, Reset)
+
+    def __repr__(self) -> str:
+        return f"<Method: path {self.path.kind}, stress removal {self.stress_removal.kind}>"

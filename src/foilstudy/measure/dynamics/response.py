@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from foilstudy.base.errors import Refusal
+from foilstudy.base.ranges import require_count
 from foilstudy.measure.dynamics.damping import Damping
 from foilstudy.measure.dynamics.reduction import ReducedModel
 from foilstudy.measure.dynamics.structure import INTERFACE
@@ -17,16 +19,24 @@ rings are held in all three."""
 
 
 def frequency_grid(lowest: float, highest: float, count: int) -> np.ndarray:
-    """Logarithmic grid with exact ends, Hz, of two frequencies or more."""
+    """Logarithmic grid with exact ends, Hz, of two frequencies or more.
+
+    Raises
+    ------
+    Refusal
+        If the ends are not positive and rising.
+    """
+    require_band(lowest, highest)
+    require_count("number of frequencies", count, 2)
     grid = np.geomspace(lowest, highest, count)
     grid[[0, -1]] = lowest, highest
     return grid
 
 
-def interface_dynamic_stiffness(
+def interface_receptance(
     model: ReducedModel, frequencies: np.ndarray, damping: Damping
 ) -> np.ndarray:
-    """D(omega) on the twelve ring motions, the inverse of the interface receptance.
+    """H(omega) of the twelve ring motions, both rings free.
 
     H(omega) = sum_j phi_j phi_j^T / (omega_j^2 - omega^2 + d_j) over all free modes of the reduced
     model, with the damping term d_j; rigid modes have omega_j = 0 exactly.
@@ -35,7 +45,7 @@ def interface_dynamic_stiffness(
     ----------
     model : ReducedModel
     frequencies : ndarray
-        Hz, positive, up to where the model is valid.
+        Hz, positive and rising, up to where the model is valid.
     damping : Damping
 
     Returns
@@ -45,7 +55,7 @@ def interface_dynamic_stiffness(
     Raises
     ------
     ValueError
-        If a frequency is not positive or beyond the validity of the model.
+        If the frequencies are not positive and rising, or go beyond the validity of the model.
     """
     frequencies = checked(frequencies)
     if frequencies.max() > model.valid_to_hz * (1 + 1e-12):
@@ -57,8 +67,14 @@ def interface_dynamic_stiffness(
     interface = shapes[:INTERFACE]
     omega = 2 * np.pi * frequencies[:, None]
     denominator = values - omega**2 + damping.modal(values, omega)
-    receptance = np.einsum("im,fm,jm->fij", interface, 1 / denominator, interface, optimize=True)
-    return np.linalg.inv(receptance)
+    return np.einsum("im,fm,jm->fij", interface, 1 / denominator, interface, optimize=True)
+
+
+def interface_dynamic_stiffness(
+    model: ReducedModel, frequencies: np.ndarray, damping: Damping
+) -> np.ndarray:
+    """D(omega) on the twelve ring motions, the inverse of `interface_receptance`."""
+    return np.linalg.inv(interface_receptance(model, frequencies, damping))
 
 
 def checked(frequencies: np.ndarray) -> np.ndarray:
@@ -67,12 +83,34 @@ def checked(frequencies: np.ndarray) -> np.ndarray:
     Raises
     ------
     ValueError
-        If there is none, or one that is not a positive number.
+        If there is none, one that is not a positive number, or one that is not above the one
+        before.
     """
     frequencies = np.atleast_1d(np.asarray(frequencies, dtype=float))
-    if frequencies.ndim != 1 or not frequencies.size or not (frequencies > 0).all():
-        raise ValueError("give one or several positive frequencies in Hz.")
+    good = frequencies.ndim == 1 and frequencies.size > 0
+    if not good or not (np.isfinite(frequencies) & (frequencies > 0)).all():
+        raise Refusal("give one or several positive frequencies in Hz.")
+    if (np.diff(frequencies) <= 0).any():
+        at = int(np.argmax(np.diff(frequencies) <= 0))
+        raise Refusal(
+            f"frequencies are to rise, but {frequencies[at + 1]:g} Hz follows "
+            f"{frequencies[at]:g} Hz; sort them and leave repeated ones out."
+        )
     return frequencies
+
+
+def require_band(lowest_hz: float, highest_hz: float) -> None:
+    """Refuse two frequencies that are no band.
+
+    Raises
+    ------
+    Refusal
+    """
+    if not 0 < lowest_hz < highest_hz < np.inf:
+        raise Refusal(
+            f"a band from {lowest_hz:g} to {highest_hz:g} Hz is none; give two positive, rising "
+            "frequencies."
+        )
 
 
 def directional_stiffness(interface_stiffness: np.ndarray) -> np.ndarray:

@@ -48,7 +48,7 @@ def recorded_task(folder: Path) -> ResponseTask:
 
 
 def contents_of(task: ResponseTask, crumple_path: Path, refinements: int = 0) -> Contents:
-    """Shape, reduced model and band of one crumple.
+    """Shape and dynamics of one crumple; its reduced model is made when a format asks for it.
 
     Parameters
     ----------
@@ -62,10 +62,7 @@ def contents_of(task: ResponseTask, crumple_path: Path, refinements: int = 0) ->
     Raises
     ------
     Refusal
-        If the record is unreadable or another's, if the crumple is no equilibrium, or if the
-        reduced model is valid nowhere in the band.
-    SolveError
-        If a factorisation or the reduction fails.
+        If the record is unreadable or another's, or if the crumple is no equilibrium.
     """
     if refinements < 0:
         raise Refusal(f"refinements is {refinements}; elements can be halved, not joined.")

@@ -1,0 +1,138 @@
+"""Every Python block of README and docs runs as it stands, and prints what the page says."""
+
+import json
+import re
+import shlex
+
+import numpy as np
+import pytest
+import yaml
+from pages import BLOCK, ROOT, is_module, pages, run
+
+from foilstudy.command import app
+from foilstudy.config import load_config
+from foilstudy.export.contents import Contents
+from foilstudy.export.write import write
+from foilstudy.pipeline.crumpled import Crumpled
+from foilstudy.study.sweep.crumple import crumple_job
+
+RECORD = "results/thesis/realisations/t500um/h170mm/0/crumple.nc"
+NUMBER = re.compile(r"-?\d+\.?\d*(?:e[-+]?\d+)?")
+
+
+@pytest.fixture(scope="module")
+def clone(tmp_path_factory):
+    """A clone after its study: the cube of the repository, one realisation, a shape to read."""
+    folder = tmp_path_factory.mktemp("clone")
+    study = load_config(
+        {
+            "study": {"name": "thesis"},
+            "sweep": {"thickness_um": [500], "reference_height_mm": [170], "realisations": 1},
+            "mesh": {"element_size_mm": 12},
+        }
+    )
+    (cell,) = study.cells()
+    crumple_job(study.crumple_task(cell), folder / RECORD)
+    (folder / "results/thesis/cube.nc").symlink_to(ROOT / "results/thesis/cube.nc")
+    shape = Contents.of(Crumpled.recorded(folder / RECORD))
+    write(shape, "npz", folder / "scan.npz")
+    return folder
+
+
+def test_every_page_with_python_is_run():
+    """But the one whose Python is a module, which a test of the kernel of studies runs."""
+    left = {page.name for page in (ROOT / "docs").glob("*.md") if "```python" in page.read_text()}
+    assert left - {page.name for page in pages()} == {"studies.md"}
+    assert is_module(ROOT / "docs/studies.md")
+
+
+@pytest.mark.parametrize("page", pages(), ids=lambda page: page.name)
+def test_the_python_of_a_page_runs_and_prints_what_the_page_says(page, clone, monkeypatch):
+    """Exactly so from the cube; a crumple made here may take another way on another processor."""
+    monkeypatch.chdir(clone)
+    text = page.read_text("utf-8")
+    assert text.count("```python") == len(BLOCK.findall(text))
+    for block in run(page):
+        if block.stated is None:
+            continue
+        if "open_cube" in block.code:
+            assert block.printed == block.stated, block.place
+            continue
+        ours, theirs = (NUMBER.sub("#", each).split() for each in (block.printed, block.stated))
+        assert ours == theirs, block.place
+        ours, theirs = (
+            np.array(NUMBER.findall(each), dtype=float) for each in (block.printed, block.stated)
+        )
+        assert (np.abs(np.log(ours / theirs)) < np.log(3)).all(), block.place
+
+
+# --- the notebook --------------------------------------------------------------------------------
+
+NOTEBOOK = ROOT / "docs/first-look.ipynb"
+
+
+@pytest.fixture(scope="module")
+def cells():
+    return json.loads(NOTEBOOK.read_text("utf-8"))["cells"]
+
+
+def test_the_notebook_is_kept_without_outputs(cells):
+    notebook = json.loads(NOTEBOOK.read_text("utf-8"))
+    assert (notebook["nbformat"], notebook["nbformat_minor"]) == (4, 5)
+    assert NOTEBOOK.stat().st_size < 20_000
+    assert len({cell["id"] for cell in cells}) == len(cells)
+    for cell in cells:
+        if cell["cell_type"] == "code":
+            assert cell["outputs"] == [] and cell["execution_count"] is None
+
+
+def test_the_notebook_runs_from_its_folder(cells, monkeypatch):
+    """What it finds is physics: softer at zero element size, and the law of thin shells."""
+    monkeypatch.chdir(NOTEBOOK.parent)
+    space = {"__name__": "notebook"}
+    for cell in cells:
+        if cell["cell_type"] == "code":
+            exec(compile("".join(cell["source"]), cell["id"], "exec"), space)
+    assert space["crumpled"].status == "converged"
+    assert (space["limit"].stiffness < space["crumpled"].stiffness()).all()
+    alpha, beta, gamma = space["law"]
+    assert -1.5 < beta < -0.5 and 1.5 < gamma < 2.5
+    assert space["r2"] > 0.95
+    import matplotlib.pyplot as plt
+
+    plt.close("all")
+
+
+# --- configurations and commands -----------------------------------------------------------------
+
+ALL_PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+
+
+def blocks(language):
+    """Texts of the blocks of a language, with their page."""
+    pattern = re.compile(rf"^```{language}\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+    return [(page.name, text) for page in ALL_PAGES for text in pattern.findall(page.read_text())]
+
+
+@pytest.mark.parametrize(("page", "text"), blocks("yaml"))
+def test_every_configuration_of_a_page_is_one(page, text):
+    least = {
+        "study": {"name": "page"},
+        "sweep": {"thickness_um": [500], "overlength_percent": [30]},
+    }
+    load_config(least | yaml.safe_load(text))
+
+
+def commands():
+    lines = [line for _, text in blocks("(?:sh)?") for line in text.splitlines()]
+    words = [shlex.split(line, comments=True) for line in lines if "foilstudy " in line]
+    return [
+        line[1:] for line in words if line and line[0].removeprefix(".venv/bin/") == "foilstudy"
+    ]
+
+
+def test_every_command_of_a_page_is_one():
+    assert len(commands()) >= 6
+    for words in commands():
+        command, *_ = app.parse_args(words, exit_on_error=False, print_error=False)
+        assert command.__name__ == words[0]
