@@ -14,7 +14,7 @@ import scipy.sparse as sparse
 from scipy.linalg import cholesky, eigh, solve_triangular
 from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
 
-from foilstudy.linalg.errors import SolveError
+from foilstudy.linalg.errors import SolveError, refuse_not_finite
 from foilstudy.linalg.factorisation import Factorisation, factorise
 
 _BLOCK = 16
@@ -94,6 +94,8 @@ def lowest_modes(
     SolveError
         If they do not converge.
     """
+    for matrix, what in ((stiffness, "the stiffness"), (mass, "the mass")):
+        refuse_not_finite(matrix.data, what)
     size = stiffness.shape[0]
     if 4 * count > size:
         return Modes(
