@@ -186,7 +186,7 @@ def test_numbers_that_are_not_finite_are_refused_before_any_solver_sees_them(
     loads[3, 1] = number
     with pytest.raises(SolveError, match="right-hand side holds 1 numbers that are not finite"):
         factor.solve(loads)
-    monkeypatch.setattr(pardiso._Job, "run", None)
+    monkeypatch.setattr(pardiso, "_job_for", None)
     monkeypatch.setattr("foilstudy.linalg.superlu.splu", None)
     matrix.data[5] = number
     with pytest.raises(SolveError, match="matrix holds 1 numbers that are not finite"):
