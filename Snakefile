@@ -13,15 +13,17 @@ import os
 for variable in ("OMP", "MKL", "OPENBLAS", "NUMBA"):
     os.environ[f"{variable}_NUM_THREADS"] = "1"
 
-# A user's config replaces the default one; merged, the two would make a third that nobody wrote.
-if not workflow.configfiles:
-    configfile: "config/config.yaml"
-
-
 report: "workflow/report/workflow.rst"
 
 
 include: "workflow/rules/common.smk"
+
+
+# A user's config replaces the default one; merged, the two would make a third that nobody wrote.
+if not workflow.configfiles:
+    configfile: DEFAULT_CONFIG
+
+
 include: "workflow/rules/realisations.smk"
 include: "workflow/rules/results.smk"
 include: "workflow/rules/export.smk"

@@ -8,10 +8,13 @@ import sys
 from importlib.metadata import version
 from pathlib import Path
 
-from foilstudy.config import ConfigError, load_config
+from foilstudy.config import ConfigError, load_merged
 from foilstudy.present.figures import FIGURES
 from foilstudy.study.registry import refuse_reserved_name
 from snakemake.logging import logger
+
+
+DEFAULT_CONFIG = "config/config.yaml"
 
 
 def refuse(problem):
@@ -21,10 +24,9 @@ def refuse(problem):
 
 
 def read_study():
-    """The validated study; from its file if there is one alone, as the message then names it."""
-    if len(workflow.configfiles) == 1 and not workflow.config_settings.config:
-        return load_config(os.path.relpath(workflow.configfiles[0]))
-    return load_config(config)
+    """The validated study, of the files and words themselves: Snakemake reads them by YAML 1.1."""
+    files = [os.path.relpath(file) for file in workflow.configfiles or [DEFAULT_CONFIG]]
+    return load_merged(files, workflow.config_settings.config_args or ())
 
 
 try:

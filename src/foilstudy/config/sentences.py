@@ -2,34 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Mapping
 from difflib import get_close_matches
+from functools import partial
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
 from .model import StudyConfig
+from .sections import TEXT_MAX
 
-__all__ = ["MINIMAL", "describe", "sentences"]
+__all__ = ["MINIMAL", "describe", "sentences", "shown"]
 
 MINIMAL = "a section sweep with thickness_um and reference_height_mm or overlength_percent"
+SHOWN_MAX = 64
+"""Characters of a name or value in a sentence."""
 
 
-def sentences(error: ValidationError) -> Iterator[str]:
-    """One sentence for each problem, repeated ones too."""
+def sentences(error: ValidationError) -> list[Callable[[], str]]:
+    """For each problem what makes its sentence; of thousands, only the first are wanted."""
+    made: list[Callable[[], str]] = []
     details = error.errors(include_url=False)
-    located = [detail["loc"] for detail in details]
+    with_bad_items = {detail["loc"][:-1] for detail in details}
     for detail in details:
-        loc = detail["loc"]
+        kind, loc = detail["type"], detail["loc"]
         # Pydantic counts only the valid items; the invalid ones have their own sentence.
-        has_bad_item = any(len(other) > len(loc) and other[: len(loc)] == loc for other in located)
-        if detail["type"] == "too_short" and has_bad_item:
+        if kind == "too_short" and loc in with_bad_items:
             continue
-        if detail["type"] == "value_error":
-            yield from str(detail["ctx"]["error"]).split("\n")
+        if kind == "value_error":
+            made += (partial(str, line) for line in str(detail["ctx"]["error"]).split("\n"))
         else:
-            yield _sentence(detail["type"], loc, detail["input"], detail.get("ctx", {}))
+            made.append(partial(_sentence, kind, loc, detail["input"], detail.get("ctx", {})))
+    return made
 
 
 def _sentence(kind: str, loc: tuple[str | int, ...], value: Any, ctx: dict[str, Any]) -> str:
@@ -37,7 +42,7 @@ def _sentence(kind: str, loc: tuple[str | int, ...], value: Any, ctx: dict[str, 
     if kind == "extra_forbidden":
         return _unknown_key(loc)
     if kind == "invalid_key":
-        return f"{value!r} is not a known key; keys are names such as 'sweep'."
+        return f"{describe(value)} is not a known key; keys are names such as 'sweep'."
     field = _field(loc)
     unit = _unit(field, loc)
     if kind == "missing":
@@ -54,21 +59,29 @@ def _sentence(kind: str, loc: tuple[str | int, ...], value: Any, ctx: dict[str, 
         return f"{path} is empty; give at least one value{_in(unit)}."
     if kind == "finite_number":
         return f"{path} is {value}, not a finite number; give a number{_in(unit)}."
+    if kind == "float_type" and isinstance(value, int) and not isinstance(value, bool):
+        return f"{path} is {describe(value)}, out of range; give a smaller one."
     if kind == "float_type":
         return f"{path} is {describe(value)}, not a number; {_number_remedy(value, unit)}."
     if kind == "int_type":
-        whole = isinstance(value, float) and value.is_integer()
+        whole = isinstance(value, float) and value.is_integer() and abs(value) < 1e15
         remedy = f"write {int(value)}" if whole else "give a whole number, without quotes"
         return f"{path} is {describe(value)}, not a whole number; {remedy}."
     if kind in _BOUNDS:
         phrase, key = _BOUNDS[kind]
-        return (
-            f"{path} is {value!r}, out of range; use a value {phrase} {ctx[key]:g}{_suffix(unit)}."
-        )
+        bound = f"{phrase} {ctx[key]:g}{_suffix(unit)}"
+        return f"{path} is {describe(value)}, out of range; use a value {bound}."
+    if kind == "too_long" and isinstance(value, list | tuple):
+        return f"{path} has {len(value)} values; give at most {ctx['max_length']}."
     if kind == "literal_error":
         return f"{path} is {describe(value)}, which is no choice; use one of {ctx['expected']}."
     if kind == "string_type":
         return f"{path} is {describe(value)}, not text; put it in quotes."
+    if kind.startswith("string_") and _extra(field).get("unit") == "text":
+        return (
+            f"{path} is {describe(value)}, which cannot be used; write 1 to {TEXT_MAX} characters "
+            "that can be printed."
+        )
     if kind in ("string_pattern_mismatch", "string_too_short", "string_too_long"):
         return f"{path} is {describe(value)}, which cannot be used; give: {_meaning(field)}."
     return f"{path} is {describe(value)}, which is invalid ({kind}); give: {_meaning(field)}."
@@ -83,7 +96,7 @@ _BOUNDS = {
 
 
 def _path(loc: tuple[str | int, ...]) -> str:
-    text = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in loc)
+    text = "".join(f"[{part}]" if isinstance(part, int) else f".{shown(part)}" for part in loc)
     return text.removeprefix(".")
 
 
@@ -102,7 +115,7 @@ def _keys(loc: tuple[str | int, ...]) -> list[str]:
 
 def _unknown_key(loc: tuple[str | int, ...]) -> str:
     *parents, key = loc
-    path, key = _path(loc), str(key)
+    path, key = _path(loc), str(key)[:SHOWN_MAX]
     siblings = _keys(tuple(parents))
     close = get_close_matches(key, siblings, n=1) or [s for s in siblings if s.startswith(key)]
     if close:
@@ -176,5 +189,16 @@ def describe(value: Any) -> str:
         return "a mapping"
     if isinstance(value, list | tuple):
         return "a list"
-    text = repr(value)
-    return f"the text {text[:60]}" if isinstance(value, str) else text[:60]
+    if isinstance(value, int) and abs(value) > 10**15:
+        return "a number of more than 15 digits"
+    text = _short(repr(value))
+    return f"the text {text}" if isinstance(value, str) else text
+
+
+def shown(name: str) -> str:
+    """A name as a sentence shows it: in one line, and not too long."""
+    return _short(name if name.isprintable() else repr(name))
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= SHOWN_MAX else f"{text[: SHOWN_MAX - 4]} ..."
