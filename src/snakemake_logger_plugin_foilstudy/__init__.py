@@ -43,6 +43,10 @@ class LogHandler(LogHandlerBase):
     """Writes what a study is doing to the terminal."""
 
     def __post_init__(self) -> None:
+        # here, as every Snakemake of the environment imports this package to find its loggers
+        from .configuration import refuse_unreadable_config
+
+        refuse_unreadable_config()
         self._stream = sys.stdout if self.common_settings.stdout else sys.stderr
         self._jobs: dict[int, tuple[str, list[str]]] = {}
         self._finished: list[int] = []
