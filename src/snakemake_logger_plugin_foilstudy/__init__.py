@@ -11,6 +11,7 @@ from __future__ import annotations
 import sys
 import time
 from contextlib import suppress
+from io import TextIOWrapper
 from logging import WARNING, LogRecord
 from pathlib import Path
 from textwrap import shorten
@@ -48,6 +49,9 @@ class LogHandler(LogHandlerBase):
 
         refuse_unreadable_config()
         self._stream = sys.stdout if self.common_settings.stdout else sys.stderr
+        if isinstance(self._stream, TextIOWrapper):
+            # a terminal that lacks a character of a name shows its number
+            self._stream.reconfigure(errors="backslashreplace")
         self._jobs: dict[int, tuple[str, list[str]]] = {}
         self._finished: list[int] = []
         self._started = time.monotonic()

@@ -61,6 +61,10 @@ wildcard_constraints:
     seed=r"[0-9]+",
 
 
+# Texts of a configuration reach a rule through functions of `params` alone: anywhere else,
+# Snakemake takes what stands in braces for a wildcard.
+
+
 def cell_paths(pattern):
     """The pattern's path for every realisation of the sweep, in the order of `CELLS`."""
     return [

@@ -66,7 +66,7 @@ rule cylinder:
     output:
         f"{RESULTS}/cylinder.nc",
     params:
-        study=STUDY.cylinder_task(),
+        study=lambda wildcards: STUDY.cylinder_task(),
         version=VERSION,
     log:
         f"{LOGS}/cylinder.log",
