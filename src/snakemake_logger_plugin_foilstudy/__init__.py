@@ -8,7 +8,9 @@ still in the log file under ``.snakemake/log``. ``workflow/profiles/default`` se
 
 from __future__ import annotations
 
+import signal
 import sys
+import threading
 import time
 from contextlib import suppress
 from io import TextIOWrapper
@@ -29,11 +31,11 @@ _WORTH_SHOWING = (
     "Nothing to be done",
     "This was a dry-run",
     "Elapsed time",
-    "Terminating processes",
     "Report created",
     "Report:",
     "Unlocked",
 )
+_STOPPED = "Stopped; the same command goes on where it stopped."
 # The job's own line and log say more than the shell command that Snakemake quotes with these.
 _SAID_BY_THE_JOB = ("CalledProcessError", "RuleException", "SpawnedJobError")
 # A file that Snakemake cannot open is the user's slip, whose last line says it all.
@@ -57,6 +59,9 @@ class LogHandler(LogHandlerBase):
         self._started = time.monotonic()
         self._planned = False
         self._first_end: float | None = None
+        self._stopping = False
+        if threading.current_thread() is threading.main_thread():
+            self._expect_ctrl_c()
 
     writes_to_stream = True
     writes_to_file = False
@@ -67,6 +72,8 @@ class LogHandler(LogHandlerBase):
 
     def emit(self, record: LogRecord) -> None:
         """Write the record, if it is one that a user follows."""
+        if self._stopping:  # all that comes now is a consequence
+            return
         event = getattr(record, "event", None)
         if event == LogEvent.RUN_INFO:
             self._write_plan(record.stats)
@@ -88,6 +95,24 @@ class LogHandler(LogHandlerBase):
             self._write(record.getMessage())
         elif event is None and str(record.msg).startswith(_WORTH_SHOWING):
             self._write(record.getMessage())
+
+    def _expect_ctrl_c(self) -> None:
+        """Answer an interrupt with one line, whether Snakemake expects it at that moment or not."""
+        interrupt, show = signal.getsignal(signal.SIGINT), sys.excepthook
+
+        def stop(number, frame):
+            if not self._stopping:
+                self._write(_STOPPED)
+            self._stopping = True
+            return interrupt(number, frame)
+
+        def show_others(kind, error, traceback):
+            if not (self._stopping and issubclass(kind, KeyboardInterrupt)):
+                show(kind, error, traceback)
+
+        if callable(interrupt):  # else a shell has this run ignore it
+            signal.signal(signal.SIGINT, stop)
+            sys.excepthook = show_others
 
     def _write(self, line: str) -> None:
         # The reader of a pipe may have seen enough; the study goes on.

@@ -56,6 +56,8 @@ def main(words: Sequence[str] | None = None) -> None:
         app(words)
     except Refusal as problem:
         sys.exit(str(problem))
+    except KeyboardInterrupt:
+        sys.exit("Stopped; the same command begins again.")
     except OSError as problem:
         if problem.filename is None:  # a fault of the machine, not of the words
             raise
