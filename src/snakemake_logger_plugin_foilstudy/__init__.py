@@ -8,6 +8,9 @@ still in the log file under ``.snakemake/log``. ``workflow/profiles/default`` se
 
 from __future__ import annotations
 
+import errno
+import logging
+import re
 import signal
 import sys
 import threading
@@ -20,6 +23,8 @@ from textwrap import shorten
 
 from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
+
+from .caches import place_for_caches
 
 __all__ = ["LogHandler"]
 
@@ -38,8 +43,15 @@ _WORTH_SHOWING = (
 _STOPPED = "Stopped; the same command goes on where it stopped."
 # The job's own line and log say more than the shell command that Snakemake quotes with these.
 _SAID_BY_THE_JOB = ("CalledProcessError", "RuleException", "SpawnedJobError")
-# A file that Snakemake cannot open is the user's slip, whose last line says it all.
-_NO_TRACEBACK = ("FileNotFoundError", "IsADirectoryError", "PermissionError")
+# A file that cannot be read or written is for the user to mend, and no traceback helps with it.
+_FAULT_OF_A_FILE = re.compile(r"\[Errno (\d+)\] ([^:)\n]*)(?:: '(.*?)')?")
+_REMEDIES = {
+    errno.ENOSPC: "make room, then start the same command again",
+    errno.EDQUOT: "make room, then start the same command again",
+    errno.EEXIST: "remove what stands in its place, such as a link that leads nowhere",
+    errno.ENOTDIR: "remove what stands in place of a folder",
+}
+_REMEDY = "check its path and permissions, then start the same command again"
 
 
 class LogHandler(LogHandlerBase):
@@ -50,6 +62,8 @@ class LogHandler(LogHandlerBase):
         from .configuration import refuse_unreadable_config
 
         refuse_unreadable_config()
+        self._caches = place_for_caches()
+        logging.raiseExceptions = False  # those of Snakemake's log file, on a full disk
         self._stream = sys.stdout if self.common_settings.stdout else sys.stderr
         if isinstance(self._stream, TextIOWrapper):
             # a terminal that lacks a character of a name shows its number
@@ -89,8 +103,10 @@ class LogHandler(LogHandlerBase):
             self._write(getattr(record, "shellcmd", None) or "")
         elif event == LogEvent.ERROR and record.exception in _SAID_BY_THE_JOB:
             return
-        elif event == LogEvent.ERROR and record.exception in _NO_TRACEBACK:
-            self._write(record.getMessage().strip().splitlines()[-1])
+        elif event == LogEvent.ERROR and (fault := _FAULT_OF_A_FILE.search(record.getMessage())):
+            number, what, path = fault.groups()
+            remedy = _REMEDIES.get(int(number), _REMEDY)
+            self._write(f"{path or Path.cwd()}: {what.strip()}; {remedy}.")
         elif record.levelno >= WARNING or self.common_settings.verbose:
             self._write(record.getMessage())
         elif event is None and str(record.msg).startswith(_WORTH_SHOWING):
@@ -156,8 +172,10 @@ class LogHandler(LogHandlerBase):
 
     def _write_failure(self, record: LogRecord) -> None:
         name, logs = self._jobs.get(record.jobid, (record.rule_name, record.log))
-        self._write(f"FAILED {name}; its log {', '.join(logs)} ends with:")
-        for line in _last_lines(logs, LOG_LINES_SHOWN):
+        lines = _last_lines(logs, LOG_LINES_SHOWN)
+        ends = "ends with:" if lines else "is empty, as it is where the disk is full."
+        self._write(f"FAILED {name}; its log {', '.join(logs)} {ends}")
+        for line in lines:
             self._write(f"    {line}")
 
 

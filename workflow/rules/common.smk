@@ -96,6 +96,8 @@ def check_results():
     """See that the results can be written, without making anything: a dry-run comes here too."""
     folder = Path(RESULTS)
     while not folder.exists():
+        if folder.is_symlink():
+            refuse_results(f"{folder} is a link to {folder.readlink()}, which is not there")
         folder = folder.parent
     if not folder.is_dir():
         refuse_results(f"{folder} is not a folder")
