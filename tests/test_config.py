@@ -297,7 +297,7 @@ def test_every_problem_has_its_own_sentence():
         ([50], "is a list, not a number"),
         (float("nan"), "is nan, not a finite number"),
         (float("inf"), "is inf, not a finite number"),
-        (10**400, "not a number"),
+        (10**400, "is a number of more than 15 digits, out of range"),
     ],
 )
 def test_impossible_thickness(value, essence):
