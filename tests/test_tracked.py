@@ -6,7 +6,10 @@ import re
 import subprocess
 from pathlib import Path
 
+import pandas as pd
 import pytest
+
+from foilstudy.base.reference import PowerLaw
 
 ROOT = Path(__file__).parents[1]
 PICTURE_BYTES_MAX = 300_000
@@ -57,3 +60,48 @@ def test_links_between_pages_lead_to_tracked_files(tracked):
         for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", page.read_text("utf-8")):
             path = (page.parent / target).resolve()
             assert path in tracked or any(path in file.parents for file in tracked), (page, target)
+
+
+LAW_ROW = re.compile(
+    r"^\| \**(axial|radial), ([^|*]+?)\** \| (\S+) ± (\S+) \| (\S+) ± (\S+) \| (\S+) ± (\S+) \| "
+    r"(\S+) \|$",
+    re.MULTILINE,
+)
+SOURCES = {
+    "mesh limit, trusted": "simulation mesh limit, trusted",
+    "mesh limit": "simulation mesh limit",
+    "5 mm mesh": "simulation",
+    "pre-stressed": "simulation pre-stressed",
+    "published simulation": "published simulation",
+    "published experiment": "published experiment",
+}
+
+
+def law_table():
+    return pd.read_csv(ROOT / "results/thesis/powerlaw.csv").set_index(["direction", "source"])
+
+
+@pytest.mark.parametrize("page", ["README.md", "docs/comparison.md"])
+def test_laws_on_a_page_are_those_of_the_table(page):
+    table = law_table()
+    rows = LAW_ROW.findall((ROOT / page).read_text("utf-8"))
+    assert len(rows) == len(table)
+    for direction, name, *numbers in rows:
+        law = table.loc[(direction, SOURCES[name])]
+        expected = [
+            f"{value:.2f}"
+            for part in ("alpha", "beta", "gamma")
+            for value in (law[part], (law[f"{part}_high"] - law[f"{part}_low"]) / 2)
+        ]
+        assert numbers == [*expected, f"{law['r2']:.3f}"], (direction, name)
+
+
+def test_dimensionless_law_of_the_first_page_is_that_of_the_table():
+    text = (ROOT / "README.md").read_text("utf-8")
+    for direction in ("axial", "radial"):
+        law = law_table().loc[(direction, SOURCES["mesh limit, trusted"])]
+        free = PowerLaw(law["alpha"], law["beta"], law["gamma"]).dimensionless(100.0, 650.0)
+        assert (
+            f"{free.constant:.2f} · (overlength/gap)^{free.beta:.2f} · (t/R)^{free.gamma:.2f} "
+            f"{direction}ly"
+        ) in text
