@@ -20,6 +20,7 @@ import pandas as pd
 
 from foilstudy import open_cube
 from foilstudy.base.reference import published
+from foilstudy.present.comparison import studied_case
 from foilstudy.present.report.laws import Exponent, read_laws
 from foilstudy.present.statistics.cells import good, relative_mesh_error
 from foilstudy.present.statistics.powerlaw import LIMIT, PLAIN, TRUSTED
@@ -88,6 +89,19 @@ def law(study: Study) -> Iterator[str]:
             name = f"{direction.direction}, {NAMES[each.source]}"
             body.append([name, *coefficients, f"{each.r2:.3f}", count])
     yield from rows(["", "α", "β, overlength", "γ, thickness", "R²", "n"], body)
+
+
+def dimensionless(study: Study) -> Iterator[str]:
+    """The trusted laws without units."""
+    case = studied_case(study.cube)
+    radius, modulus = case.diameter_mm / 2, case.youngs_modulus_mpa
+    for direction in read_laws(study.table("powerlaw"), study.table("stiffness_summary")):
+        one = direction.law(TRUSTED).law.dimensionless(radius, modulus)
+        slender = case.gap_height_mm / case.diameter_mm
+        yield (
+            f"- {direction.direction}: k/(E t) = {one.constant:.2f} · (overlength/gap)^"
+            f"{one.beta:.2f} · (t/R)^{one.gamma:.2f}, at a gap of {slender:.2f} diameters"
+        )
 
 
 def _coefficient(coefficient: Exponent) -> str:
@@ -334,8 +348,8 @@ def _list(values: list[int]) -> str:
 BLOCKS = {
     each.__name__: each
     for each in (
-        law, trust, means, simulation, experiment, prestress, bound, variability, dynamics,
-        eigenfrequency, shapes, costs,
+        law, dimensionless, trust, means, simulation, experiment, prestress, bound, variability,
+        dynamics, eigenfrequency, shapes, costs,
     )
 }  # fmt: skip
 

@@ -200,6 +200,21 @@ def test_images_decode_and_vector_drawings_win(study):
     assert base64.b64decode(sources["morphology"].split(",")[1]) == PIXEL
 
 
+def test_every_figure_enlarges_and_tells_what_it_shows(study):
+    _, page = study
+    figures = re.findall(r'<figure id="figure-(\w+)">(.*?)</figure>', page, flags=re.S)
+    alts = {}
+    for name, content in figures:
+        assert 'class="enlarge"' in content
+        alts[name] = html.unescape(re.search(r'alt="([^"]+)"', content)[1])
+    assert (
+        "The axial stiffness in the mesh limit, mean of the realisations, runs from"
+        in (alts["stiffness_axial"])
+    )
+    assert "radial displacement runs from −20 mm" in alts["morphology"]
+    assert "button.enlarge" in page and "showModal" in page
+
+
 def test_shapes_decode_to_the_crumples(study):
     files, page = study
     data = json.loads(re.search(r'id="viewer-data">(.*?)</script>', page, flags=re.S)[1])

@@ -72,9 +72,9 @@ def _unresolved(trust: Trust):
         yield (
             f"The crumple is not resolved at {named(cells)}: its elements are "
             f"{number_range(widths.lowest, widths.highest)} times √(R t) wide, and folds need "
-            f"{SLENDERNESS_MAX:g} at most. A finer mesh crumples to another shape, several times "
-            "as stiff or as soft; the stated mesh error, which is that of the given shape, does "
-            "not tell."
+            f"{SLENDERNESS_MAX:g} at most. A finer mesh crumples to another shape, possibly "
+            "several times as stiff or as soft; the stated mesh error, which is that of the given "
+            "shape, does not tell."
         )
 
 

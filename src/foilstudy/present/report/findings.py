@@ -66,6 +66,7 @@ def mesh_words(summary: pd.DataFrame) -> str:
 
 
 def _beside_published(cells: pd.DataFrame) -> str:
+    cells = cells[cells["trusted"].astype(bool)]
     ratios = [
         f"{number_range(spread.lowest, spread.highest)} times the published {name}"
         for name in ("simulation", "experiment")

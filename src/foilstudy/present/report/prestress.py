@@ -203,9 +203,8 @@ def _ratios(cube: xr.Dataset) -> str:
         if count:
             hidden.append(f"{count} of {n} {direction} values")
     text = (
-        "All other stiffnesses here belong to the stress-free crumpled shape, as in the published "
-        f"work; with the stress left in, the stiffness is {' and '.join(parts)} that value, same "
-        "shape and mesh."
+        "All other stiffnesses here belong to the stress-free crumpled shape; with the stress left "
+        f"in, the stiffness is {' and '.join(parts)} that value, same shape and mesh."
     )
     if not hidden:
         return f"{text} Every pre-stressed value is positive."

@@ -22,7 +22,7 @@ MODE_NODES_MAX = 7_000
 _QUANTA = 32767
 _MODE_QUANTA = 127
 _COLOURS = 256
-_MOTION_MAP = "viridis"
+_MOTION_MAP = "YlOrRd"
 
 
 def choose_shapes(paths: Iterable[Path]) -> list[RecordedCrumple]:

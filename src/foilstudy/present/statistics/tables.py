@@ -33,7 +33,7 @@ TABLES = {
         "trusted configurations, and of all), on the crumpled mesh, and with the stress left in; "
         "beside them, for the published case alone, the published fits to simulation and to "
         "experiment.",
-        "power laws, their uncertainty and the published ones",
+        "power laws and their uncertainty",
     ),
     "stiffness_summary": TableSpec(
         "present.statistics.summary:stiffness_summary",
