@@ -125,11 +125,15 @@ def study(tmp_path_factory):
     cube = noisy_cube(verdicts={(0, 2, 1): ("not_converged", "stopped at the step limit")})
     files = make_study(folder, cube, crumples=crumples)
     benchmarks = folder / "benchmarks"
-    (benchmarks / "crumple").mkdir(parents=True)
-    for cell in ("a", "b"):
-        (benchmarks / "crumple" / f"{cell}.tsv").write_text(
-            "s\th:m:s\tmax_rss\tcpu_time\n2.5\t0:00:02\t300\t2.25\n"
-        )
+    # two that count, of a cell that was taken out, of a rule that was switched off, half-written
+    line = "s\th:m:s\tmax_rss\tcpu_time\n2.5\t0:00:02\t300\t2.25\n"
+    kept = "t50um_h135mm_0", "t500um_h250mm_1"
+    for place in (*(f"crumple/{cell}" for cell in kept), "crumple/t60um_h135mm_0",
+                  f"refine/{kept[0]}", f"export/{kept[0]}"):  # fmt: skip
+        (benchmarks / f"{place}.tsv").parent.mkdir(parents=True, exist_ok=True)
+        (benchmarks / f"{place}.tsv").write_text(line)
+    (benchmarks / "response").mkdir()
+    (benchmarks / "response" / f"{kept[0]}.tsv").write_text("")
     (benchmarks / "cube.tsv").write_text("s\th:m:s\tmax_rss\tcpu_time\n0.1\t0:00:00\t-\t-\n")
     out = write_report(files, folder / "report.html")
     return files, out.read_text("utf-8")
@@ -558,6 +562,7 @@ def test_costs_add_up(study):
     jobs = {job["rule"]: job for job in health.jobs}
     assert jobs["crumple"]["jobs"] == 2 and jobs["crumple"]["wall_s"] == pytest.approx(5)
     assert jobs["cube"]["wall_s"] == pytest.approx(0.1)
+    assert jobs.keys() == {"crumple", "cube"}
     assert "nan" not in words(page).lower().split()
 
 

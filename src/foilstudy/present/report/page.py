@@ -35,6 +35,7 @@ from foilstudy.present.report.alt import alt_text
 from foilstudy.present.report.health import assess
 from foilstudy.present.statistics.tables import TABLES
 from foilstudy.present.statistics.trust import assess_trust
+from foilstudy.study.sweep.origins import physics_codes
 
 TEMPLATES = Path(__file__).parent / "templates"
 
@@ -285,11 +286,22 @@ def _gradient(colours) -> str:
 
 
 def _provenance(cube: xr.Dataset) -> list[tuple[str, str]]:
-    return [
+    rows = [
         (name.replace("_", " "), str(value))
         for name, value in cube.attrs.items()
-        if name != "config"
+        if name not in ("config", "task")  # the one stands below, the other says the same
     ]
+    return [*rows, ("physics since", _physics_since(cube))]
+
+
+def _physics_since(cube: xr.Dataset) -> str:
+    """Whether the code that would crumple and measure today is that of the cube."""
+    if all(cube.attrs.get(name) == code for name, code in physics_codes().items()):
+        return "the code that drew this page crumples and measures as that of the cube"
+    return (
+        "the code that crumples or measures is another than that of the cube: running the study "
+        "again makes its realisations anew"
+    )
 
 
 def _files(files: StudyFiles, folder: Path) -> list[tuple[str, str, str]]:
