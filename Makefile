@@ -32,10 +32,10 @@ test-slow: $(DEVELOPMENT)
 	@$(BIN)/python -m pytest -m "slow or not slow"
 
 lint: $(DEVELOPMENT)
-	@$(BIN)/ruff check src tests workflow/scripts
+	@$(BIN)/ruff check src tests workflow/scripts docs/page_numbers.py
 
 format: $(DEVELOPMENT)
-	@$(BIN)/ruff format src tests workflow/scripts
+	@$(BIN)/ruff format src tests workflow/scripts docs/page_numbers.py
 	@$(BIN)/ruff check --fix src tests workflow/scripts
 
 lock: $(DEVELOPMENT)

@@ -1,5 +1,9 @@
 """Factorisation, inertia and eigenpairs against dense linear algebra."""
 
+import os
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 import scipy.linalg
@@ -176,11 +180,37 @@ def test_a_singular_matrix_is_refused(solver, make):
         factorise(make())
 
 
-def test_a_matrix_that_is_not_finite_is_refused(solver):
-    matrix = plate(4, 4)
-    matrix.data[5] = np.nan
-    with pytest.raises(SolveError):
+@pytest.mark.parametrize("number", [np.nan, np.inf])
+def test_numbers_that_are_not_finite_are_refused_before_any_solver_sees_them(
+    solver, number, monkeypatch
+):
+    """Native code may never come back from them, or die."""
+    matrix, loads = plate(4, 4), np.ones((16, 2))
+    factor = factorise(matrix)
+    loads[3, 1] = number
+    with pytest.raises(SolveError, match="right-hand side holds 1 numbers that are not finite"):
+        factor.solve(loads)
+    monkeypatch.setattr(pardiso, "_job_for", None)
+    monkeypatch.setattr("foilstudy.linalg.superlu.splu", None)
+    matrix.data[5] = number
+    with pytest.raises(SolveError, match="matrix holds 1 numbers that are not finite"):
         factorise(matrix)
+
+
+def test_mode_searches_and_krylov_spaces_refuse_numbers_that_are_not_finite():
+    stiffness, mass = clamped_cylinder(25e-3)
+    factor = factorise(stiffness)
+    holed = mass.copy()
+    holed.data[7] = np.nan
+    with pytest.raises(SolveError, match="not finite"):
+        modes_below(stiffness, holed, 1e6)
+    with pytest.raises(SolveError, match="not finite"):
+        lowest_modes(stiffness, holed, factor, 4)
+    load = np.ones((stiffness.shape[0], 2))
+    with pytest.raises(SolveError, match="not finite"):
+        BlockKrylov(holed).append(factor, load)
+    load[:, 1] = 0.0  # a direction of no length is nothing, not a number over zero
+    assert BlockKrylov(mass).append(factor, load).shape[1] == 1
 
 
 def test_the_same_bits_every_time(solver):
@@ -285,3 +315,24 @@ def test_a_kept_analysis_changes_no_bit():
     assert not any(job.takes(held) for job in pardiso._analysed)  # taken
     assert np.array_equal(again.solve(probe), expected)
     assert again.negative_eigenvalues == inertia
+
+
+@pytest.mark.skipif(not pardiso.available(), reason="no MKL runtime")
+@pytest.mark.parametrize(
+    "variable", ["MKL_INTERFACE_LAYER=ILP64", "MKL_INTERFACE_LAYER=GNU", "MKL_THREADING_LAYER=TBB"]
+)
+def test_layers_of_mkl_that_a_shell_asks_for_are_not_taken(variable):
+    """Longer integers made it refuse the matrix, a layer that is not installed end the process."""
+    code = (
+        "import scipy.sparse as s; from foilstudy.linalg.pardiso import PardisoFactorisation as P; "
+        "print(P(s.csr_matrix([[4.0, 1.0], [1.0, 2.0]])).solve(__import__('numpy').ones(2)).sum())"
+    )
+    name, _, value = variable.partition("=")
+    run = subprocess.run(
+        [sys.executable, "-c", code],
+        env=os.environ | {name: value},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert float(run.stdout) == pytest.approx(4 / 7)

@@ -66,27 +66,8 @@ def test_the_python_of_a_page_runs_and_prints_what_the_page_says(block, clone, m
     assert (np.abs(np.log(ours / theirs)) < np.log(3)).all()
 
 
-def test_the_numbers_of_the_readme_are_those_of_the_published_study():
-    """`docs/results.md` prints them; the sentences of the README hold them."""
-    (block,) = (each for each in RUN if each.printed and "minutes:" in each.printed)
-    lines = dict(line.split(":", 1) for line in block.printed.splitlines() if ":" in line)
-    *low, high = lines["realisations that cross themselves, of 24 at each overlength"].split()
-    crumpling, static, dynamic = lines["medians (s)"].split()
-    beyond = np.array(lines["surface beyond yield at 500 µm (%)"].split(), dtype=float)
-    left = {row.split()[0]: row.split()[1:] for row in block.printed.splitlines()[-2:]}
-    readme = " ".join((ROOT / "README.md").read_text("utf-8").split())
-    for sentence in (
-        f"took{lines['minutes']} minutes of processor time",
-        f"{crumpling}, {static} and {dynamic} s a realisation (medians), no job more than"
-        f"{lines['largest job (GB)']} GB",
-        f"{high} of 24 realisations do at 92 % overlength, {sum(map(int, low))} of 96 below",
-        f"from {left['axial'][0]} (50 µm) to {left['axial'][-1]} (500 µm) of it axially, from "
-        f"{left['radial'][0]} to {left['radial'][-1]} radially",
-    ):
-        assert sentence in readme, sentence
-    assert "at 500 µm and 31 % or more nearly half of the surface is beyond" in readme
-    assert (beyond[2:] > 40).all() and (beyond < 50).all()
-    (count,) = re.findall(r"then (\d+) crumples on 2 cores", readme)
+def test_the_readme_counts_the_crumples_of_the_default_study():
+    (count,) = re.findall(r"then (\d+) crumples on 2 cores", (ROOT / "README.md").read_text())
     assert int(count) == len(load_config(ROOT / "config/config.yaml").cells())
 
 

@@ -10,6 +10,7 @@ import time
 from pathlib import Path
 
 import frozen
+import markupsafe
 import numpy as np
 import pytest
 import xarray as xr
@@ -17,10 +18,14 @@ import yaml
 from small_study import SECTIONS, compute, sections_with
 
 from foilstudy.base.record import read_record
+from foilstudy.config.sections import CONSTANTS
+from foilstudy.export.formats import FORMATS
+from foilstudy.model.materials import MATERIALS
 from foilstudy.present.figures import FIGURES
 
 ROOT = Path(__file__).parents[1]
 TINY = yaml.safe_load((ROOT / "config/tiny.yaml").read_text(encoding="utf-8"))
+FEP = {key: getattr(MATERIALS["FEP"], key) for key in CONSTANTS}
 SNAKEMAKE = str(Path(sys.executable).with_name("snakemake"))
 # What differs between two runs of one study, and nothing else may.
 COSTS = ("seconds_crumple", "seconds_static", "seconds_dynamic", "peak_memory")
@@ -103,6 +108,67 @@ def test_unwritable_results_are_refused_in_one_sentence(tmp_path):
     assert run.returncode != 0
     said = [line for line in run.stderr.splitlines() if not line.startswith("Using ")]
     assert len(said) == 1 and "results/tiny: cannot be written" in said[0]
+
+
+@pytest.mark.parametrize("place", ["results", "results/tiny"])
+def test_a_link_that_leads_nowhere_is_named(tmp_path, place):
+    (tmp_path / place).parent.mkdir(exist_ok=True)
+    (tmp_path / place).symlink_to("/nowhere/at/all")
+    run = snakemake(tmp_path, TINY, "--dry-run")
+    assert run.returncode != 0
+    assert f"({place} is a link to /nowhere/at/all, which is not there)" in run.stdout
+
+
+def test_a_home_without_a_place_for_caches_is_no_obstacle(tmp_path, monkeypatch):
+    monkeypatch.setenv("HOME", "/dev/null")
+    monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
+    assert plan(tmp_path, TINY)["crumple"] == 8
+
+
+WILD = "{x} {wildcards.y} {{ $HOME `ls` \"q\" 's' \\ % <b>&amp;\n\u591a\U0001f642 {"
+
+
+def test_texts_and_paths_may_hold_anything(tmp_path):
+    """Snakemake takes what stands in braces for a wildcard, a shell what follows a dollar."""
+    folder = tmp_path / "{a} $b 'c\" \u00e9"
+    folder.mkdir()
+    study = changed(report={"title": WILD}, material={"name": WILD, **FEP})
+    assert plan(folder, study)["report"] == 1
+
+
+@pytest.mark.slow
+def test_wild_texts_reach_the_report(tmp_path):
+    study = changed(
+        report={"title": WILD},
+        material={"name": WILD, **FEP},
+        sweep={"realisations": 1, "thickness_um": [500]},
+        export={"formats": list(FORMATS)},
+    )
+    run = snakemake(tmp_path, study, "-j2")
+    assert run.returncode == 0, run.stderr
+    page = (tmp_path / "results/tiny/report.html").read_text(encoding="utf-8")
+    assert str(markupsafe.escape(WILD)) in page
+    assert snakemake(tmp_path, study, "--report", "all.html").returncode == 0
+    assert plan(tmp_path, study) == {}
+
+
+@pytest.mark.slow
+def test_an_interrupted_study_says_how_to_go_on_and_does(tmp_path):
+    process = subprocess.Popen(
+        command(tmp_path, TINY, "-j2"),
+        cwd=ROOT,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    for line in process.stderr:
+        if line.startswith("["):
+            break
+    os.killpg(process.pid, signal.SIGINT)
+    said = [line for line in process.stderr if not line.startswith("[")]
+    assert said == ["Stopped; the same command goes on where it stopped.\n"]
+    assert process.wait() == 1
+    assert 0 < plan(tmp_path, TINY)["crumple"] < 8
 
 
 def test_finished_study_has_nothing_to_do(finished):

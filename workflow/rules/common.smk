@@ -8,12 +8,15 @@ import sys
 from pathlib import Path
 
 from foilstudy.base.manifest import MANIFEST
-from foilstudy.config import ConfigError, load_config
+from foilstudy.config import ConfigError, load_merged
 from foilstudy.present.figures import FIGURES
 from foilstudy.present.files import StudyFiles
 from foilstudy.present.shown import shown
 from foilstudy.study.registry import refuse_reserved_name
 from snakemake.logging import logger
+
+
+DEFAULT_CONFIG = "config/config.yaml"
 
 
 def refuse(problem):
@@ -23,10 +26,9 @@ def refuse(problem):
 
 
 def read_study():
-    """The validated study; from its file if there is one alone, as the message then names it."""
-    if len(workflow.configfiles) == 1 and not workflow.config_settings.config:
-        return load_config(os.path.relpath(workflow.configfiles[0]))
-    return load_config(config)
+    """The validated study, of the files and words themselves: Snakemake reads them by YAML 1.1."""
+    files = [os.path.relpath(file) for file in workflow.configfiles or [DEFAULT_CONFIG]]
+    return load_merged(files, workflow.config_settings.config_args or ())
 
 
 try:
@@ -60,6 +62,10 @@ wildcard_constraints:
     seed=r"[0-9]+",
 
 
+# Texts of a configuration reach a rule through functions of `params` alone: anywhere else,
+# Snakemake takes what stands in braces for a wildcard.
+
+
 def cell_paths(pattern):
     """The pattern's path for every realisation of the sweep, in the order of `CELLS`."""
     return [
@@ -91,6 +97,8 @@ def check_results():
     """See that the results can be written, without making anything: a dry-run comes here too."""
     folder = Path(RESULTS)
     while not folder.exists():
+        if folder.is_symlink():
+            refuse_results(f"{folder} is a link to {folder.readlink()}, which is not there")
         folder = folder.parent
     if not folder.is_dir():
         refuse_results(f"{folder} is not a folder")
@@ -113,7 +121,7 @@ def claim_results():
             refuse_results(problem.strerror, folder)
         try:
             fcntl.flock(RESULTS_LOCKS[-1], fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except (BlockingIOError, PermissionError):
+        except BlockingIOError:
             remedy = ", or give this one another study.name" if folder == RESULTS else ""
             refuse(f"{folder}: another run is writing this study; wait until it ends{remedy}.")
         except OSError as problem:

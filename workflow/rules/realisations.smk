@@ -67,7 +67,7 @@ rule cylinder:
     output:
         f"{RESULTS}/cylinder.nc",
     params:
-        study=STUDY.cylinder_task(),
+        study=lambda wildcards: STUDY.cylinder_task(),
     log:
         f"{LOGS}/cylinder.log",
     benchmark:

@@ -20,7 +20,7 @@ rule cube:
     output:
         f"{RESULTS}/cube.nc",
     params:
-        study=STUDY.model_dump_json(),
+        study=lambda wildcards: STUDY.model_dump_json(),
     log:
         f"{LOGS}/cube.log",
     benchmark:
@@ -108,7 +108,8 @@ rule report:
             f"{RESULTS}/report.html",
             caption="../report/report.rst",
             category="Report",
-            labels={"page": STUDY.report.title},
+            # not its title, in which Snakemake would look for wildcards
+            labels={"page": STUDY.study.name},
         ),
         f"{RESULTS}/{MANIFEST}",
     log:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 from collections.abc import Iterator
@@ -19,6 +20,11 @@ def written_whole(path: str | Path) -> Iterator[Path]:
     ----------
     path : str or Path
         Its folder is made if need be.
+
+    Raises
+    ------
+    OSError
+        Also where the NetCDF library says no more than that it could not write.
     """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -27,6 +33,11 @@ def written_whole(path: str | Path) -> Iterator[Path]:
     try:
         yield partial
         os.replace(partial, path)
+    except RuntimeError as error:
+        if not str(error).startswith("NetCDF: "):
+            raise
+        what = f"cannot be written ({error}), as on a full disk"
+        raise OSError(errno.EIO, what, str(path)) from error
     finally:
         partial.unlink(missing_ok=True)
 

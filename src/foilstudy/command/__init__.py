@@ -7,6 +7,7 @@ help nor `--version` may wait for numba.
 
 from __future__ import annotations
 
+import io
 import sys
 from collections.abc import Sequence
 from importlib.metadata import version
@@ -54,10 +55,15 @@ def main(words: Sequence[str] | None = None) -> None:
     SystemExit
         With the sentences, or with the exit code.
     """
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        # a terminal that lacks a character of a name shows its number
+        sys.stdout.reconfigure(errors="backslashreplace")
     try:
         app(words)
     except Refusal as problem:
         sys.exit(str(problem))
+    except KeyboardInterrupt:
+        sys.exit("Stopped; the same command begins again.")
     except OSError as problem:
         if problem.filename is None:  # a fault of the machine, not of the words
             raise

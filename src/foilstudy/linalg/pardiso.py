@@ -13,13 +13,16 @@ from importlib import metadata
 import numpy as np
 import scipy.sparse as sparse
 
-from foilstudy.linalg.errors import SolveError, refuse_complex
+from foilstudy.linalg.errors import SolveError, refuse_complex, refuse_not_finite
 
 _SYMMETRIC_INDEFINITE, _COMPLEX_SYMMETRIC = -2, 6
 _ANALYSE_AND_FACTOR, _FACTOR, _SOLVE, _RELEASE_FACTORS, _RELEASE = 12, 22, 33, 0, -1
 _CBWR_AUTO = 2
 """Conditional numerical reproducibility: the fastest code of this machine, the same in every run.
 Named instruction sets are refused on other processors than Intel's."""
+
+_LAYER_LP64, _LAYER_INTEL = 0, 0
+"""Integers of 32 bits, as the arrays below have; the threads that the `mkl` package brings."""
 
 
 @lru_cache(maxsize=1)
@@ -35,6 +38,9 @@ def _library():
                 library = ctypes.CDLL(str(file.locate()))
             except OSError:
                 return None
+            # before anything the user's shell asks for: a layer not installed ends the process
+            library.MKL_Set_Interface_Layer(ctypes.c_int(_LAYER_LP64))
+            library.MKL_Set_Threading_Layer(ctypes.c_int(_LAYER_INTEL))
             library.MKL_CBWR_Set(ctypes.c_int(_CBWR_AUTO))
             library.MKL_Set_Num_Threads(ctypes.c_int(1))
             library.pardiso.restype = None
@@ -134,6 +140,7 @@ class PardisoFactorisation:
     """
 
     def __init__(self, matrix: sparse.csr_matrix):
+        refuse_not_finite(matrix.data, "the matrix")
         upper = sparse.triu(matrix, format="csr")
         upper.sort_indices()
         self._job, phase = _job_for(upper)
@@ -147,6 +154,7 @@ class PardisoFactorisation:
     def solve(self, rhs: np.ndarray) -> np.ndarray:
         """Solve for one or several right-hand sides, shape (n,) or (n, k)."""
         refuse_complex(rhs, self._job.values.dtype)
+        refuse_not_finite(rhs, "the right-hand side")
         return self._run(_SOLVE, np.asfortranarray(rhs, dtype=self._job.values.dtype))
 
     def _run(self, phase: int, rhs: np.ndarray) -> np.ndarray:

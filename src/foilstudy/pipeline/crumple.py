@@ -23,6 +23,7 @@ def crumple(
     ----------
     foil : Foil
     mesh : Mesh, optional
+        By default `Mesh.resolving` the foil.
     imperfection : Imperfection, optional
         Its seed chooses the realisation.
     method : Method, optional
@@ -55,7 +56,9 @@ def uncrumpled(
             f"the reference height of a foil is {foil.reference_height:g} m, in a gap of "
             f"{foil.gap_height:g} m; give one above the gap height."
         )
-    recipe = Recipe(mesh or Mesh(), imperfection or Imperfection(), method or Method())
+    recipe = Recipe(
+        mesh or Mesh.resolving(foil), imperfection or Imperfection(), method or Method()
+    )
     patch = recipe.mesh.patch(foil)
     reference = imperfect_cylinder(patch, foil, recipe.imperfection)
     element = recipe.mesh.element_at_work()

@@ -66,6 +66,12 @@ class ReducedModel:
         """Interface stiffness at zero frequency, shape (12, 12)."""
         return self.stiffness[:INTERFACE, :INTERFACE]
 
+    def fastest_ring_motion(self) -> float:
+        """Largest eigenvalue of the rings with the interior following statically, rad2/s2."""
+        rings = slice(0, INTERFACE)
+        stiffness, mass = self.stiffness[rings, rings], self.mass[rings, rings]
+        return float(eigh(stiffness, mass, eigvals_only=True)[-1])
+
     def clamped_eigenfrequencies(self) -> np.ndarray:
         """All eigenfrequencies with both rings held, ascending, Hz."""
         return self._clamped[0].copy()

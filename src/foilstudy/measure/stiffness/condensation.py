@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sparse
 
-from foilstudy.linalg import Factorisation, factorise
+from foilstudy.linalg import Factorisation, SolveError, factorise
 from foilstudy.measure.stiffness.rings import Rings
 
 
@@ -64,7 +64,13 @@ def condense(system: InterfaceSystem) -> StaticCondensation:
     SolveError
         If the interior stiffness is singular to working precision.
     """
-    factor = factorise(system.interior)
+    try:
+        factor = factorise(system.interior)
+    except SolveError as error:
+        raise SolveError(
+            f"the stiffness with held rings is singular to working precision ({error}); is the "
+            "foil too thin for its mesh, use a finer mesh or a thicker foil"
+        ) from error
     modes = -factor.solve(system.coupling)
     stiffness = system.interface + system.coupling.T @ modes
     return StaticCondensation(0.5 * (stiffness + stiffness.T), modes, factor)

@@ -20,8 +20,10 @@ from foilstudy.base.numerals import (
 from foilstudy.base.outcome import STATUSES
 from foilstudy.base.reference import Published
 from foilstudy.present.report.health import Health
-from foilstudy.present.report.laws import SIGNIFICANT, Exponent
+from foilstudy.present.report.laws import Exponent
 from foilstudy.present.report.spread import Spread
+from foilstudy.present.statistics.regression import SIGNIFICANT
+from foilstudy.present.statistics.summary import best_mean
 from foilstudy.present.statistics.variability import fit_variability, plain_scatter
 
 
@@ -33,14 +35,19 @@ def stiffness_findings(summary: pd.DataFrame) -> list[str]:
     summary
         Table ``stiffness_summary.csv``.
     """
+    summary = summary.assign(best=best_mean(summary))
+    mesh = mesh_words(summary)
     paragraphs = []
-    for direction, cells in _measured(summary, "mean"):
-        low, high = cells.loc[cells["mean"].idxmin()], cells.loc[cells["mean"].idxmax()]
+    for direction, cells in _measured(summary, "best"):
+        low, high = cells.loc[cells["best"].idxmin()], cells.loc[cells["best"].idxmax()]
         text = (
-            f"The {direction} stiffness, mean of the realisations, runs from "
-            f"{stiffness(low['mean'])} ({_case(low)}) to {stiffness(high['mean'])} ({_case(high)})"
+            f"The {direction} stiffness {mesh}, mean of the realisations, runs from "
+            f"{stiffness(low['best'])} ({_case(low)}) to {stiffness(high['best'])} ({_case(high)})"
         )
-        bound = Spread.of(cells["mean"] / cells["cylinder_bound"])
+        doubted = int((~cells["trusted"].astype(bool)).sum())
+        if doubted:
+            text += f", of {plural(len(cells), 'configuration')} of which {doubted} are not trusted"
+        bound = Spread.of(cells["best"] / cells["cylinder_bound"])
         if bound:
             text += f", {percent_range(bound.lowest, bound.highest)} of the uncrumpled cylinder's"
         clauses = [clause for clause in (_beside_published(cells), _monotone(cells)) if clause]
@@ -50,18 +57,28 @@ def stiffness_findings(summary: pd.DataFrame) -> list[str]:
     return paragraphs + _axial_below_radial(summary)
 
 
+def mesh_words(summary: pd.DataFrame) -> str:
+    """Say on which mesh the best stiffness is known."""
+    stated = summary["mesh_error_mean"].notna()
+    if stated.all():
+        return "in the mesh limit"
+    return "in the mesh limit where it is known" if stated.any() else "on the crumpled mesh"
+
+
 def _beside_published(cells: pd.DataFrame) -> str:
+    cells = cells[cells["trusted"].astype(bool)]
     ratios = [
         f"{number_range(spread.lowest, spread.highest)} times the published {name}"
         for name in ("simulation", "experiment")
-        if (spread := Spread.of(cells[f"ratio_{name}"]))
+        if f"published_{name}" in cells
+        and (spread := Spread.of(cells["best"] / cells[f"published_{name}"]))
     ]
     return f"is {' and '.join(ratios)}" if ratios else ""
 
 
 def _monotone(cells: pd.DataFrame) -> str:
     """Count the steps between neighbouring configurations that follow the trend."""
-    grid = cells.pivot(index="thickness_um", columns="overlength_percent", values="mean")
+    grid = cells.pivot(index="thickness_um", columns="overlength_percent", values="best")
     along_overlength = grid.diff(axis=1).to_numpy()
     along_thickness = grid.diff(axis=0).to_numpy()
     parts = [
@@ -77,7 +94,7 @@ def _monotone(cells: pd.DataFrame) -> str:
 
 def _axial_below_radial(summary: pd.DataFrame) -> list[str]:
     keys = ["thickness_um", "overlength_percent"]
-    grid = summary.pivot(index=keys, columns="direction", values="mean").dropna()
+    grid = summary.pivot(index=keys, columns="direction", values="best").dropna()
     if not {"axial", "radial"} <= set(grid.columns) or grid.empty:
         return []
     below = int((grid["axial"] < grid["radial"]).sum())
@@ -183,10 +200,11 @@ def eigenfrequency_findings(law: pd.DataFrame, cube: xr.Dataset) -> list[str]:
         )
     exponents = []
     for row in law[law["exponent"].notna()].itertuples():
-        exponent = Exponent(row.exponent, row.exponent_se, row.exponent_low, row.exponent_high)
+        exponent = Exponent(row.exponent, row.exponent_low, row.exponent_high)
         text = f"{fixed(exponent.value)}{exponent.margin} at {nominal(row.thickness_um)} µm"
-        if math.isfinite(row.published_exponent):
-            text += f" (published {fixed(row.published_exponent)}{_side(exponent, row)})"
+        published = getattr(row, "published_exponent", math.nan)
+        if math.isfinite(published):
+            text += f" (published {fixed(published)}{_side(exponent, published)})"
         exponents.append(text)
     if exponents:
         sentences.append(
@@ -197,22 +215,22 @@ def eigenfrequency_findings(law: pd.DataFrame, cube: xr.Dataset) -> list[str]:
         if len(bent):
             sentences.append(
                 f"At {', '.join(map(nominal, bent))} µm the heights depart from a power law by "
-                "more than seeds explain, and the interval is too narrow."
+                "more than seeds explain, which the interval allows for (clustered by height)."
             )
     elif spread:
         sentences.append("One reference height alone determines no exponent.")
     return sentences
 
 
-def _side(exponent: Exponent, row) -> str:
+def _side(exponent: Exponent, published: float) -> str:
     """Whether a published exponent lies in the interval of ours; empty without an interval."""
     if not math.isfinite(exponent.low):
         return ""
-    inside = exponent.low <= row.published_exponent <= exponent.high
+    inside = exponent.low <= published <= exponent.high
     return ", inside the interval" if inside else ", outside it"
 
 
-def shape_findings(cube: xr.Dataset, reference: Published) -> list[str]:
+def shape_findings(cube: xr.Dataset, reference: Published | None) -> list[str]:
     """Say how far the crumpled sheets leave the cylinder.
 
     Parameters
@@ -220,18 +238,20 @@ def shape_findings(cube: xr.Dataset, reference: Published) -> list[str]:
     cube
         The study's result cube.
     reference
-        The published results.
+        The published results, where the study is of their case.
     """
     lowest = Spread.of(cube["radial_displacement_min"])
     highest = Spread.of(cube["radial_displacement_max"])
     if not (lowest and highest):
         return ["No realisation left a shape."]
-    published_low, published_high = reference.radial_displacement_range_mm
-    return [
+    text = (
         f"Over all realisations the radial displacement runs from {signed(lowest.lowest, 0)} mm "
-        f"(inward) to {signed(highest.highest, 0)} mm (outward); published: "
-        f"{signed(published_low, 0)} to {signed(published_high, 0)} mm."
-    ]
+        f"(inward) to {signed(highest.highest, 0)} mm (outward)"
+    )
+    if reference:
+        low, high = reference.radial_displacement_range_mm
+        text += f"; published: {signed(low, 0)} to {signed(high, 0)} mm"
+    return [f"{text}."]
 
 
 def health_sentence(health: Health) -> str:

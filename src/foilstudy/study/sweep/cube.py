@@ -26,6 +26,7 @@ from foilstudy.study.sweep.origins import (
     cube_origin,
     cylinder_origin,
     parts_of,
+    physics_codes,
     refined_origin,
     refuse_departure,
     response_origin,
@@ -115,7 +116,7 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
         words = {"units": "1", "long_name": f"digest of the record {name}.nc"}
         cube[f"{name}_digest"] = (_CELL, values, words)
     origin = cube_origin(study, digests, attributes["digest"])
-    cube.attrs |= origin.attributes() | {"digest": origin.digest}
+    cube.attrs |= origin.attributes() | {"digest": origin.digest} | physics_codes()
     _write(cube, path)
     return cube
 

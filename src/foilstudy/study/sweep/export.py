@@ -109,8 +109,8 @@ def export_realisation(task: ResponseTask, crumple_path: Path, folder: Path, *fo
     Refusal
         If a format is unknown, or the record of the crumple unreadable or another's.
     """
-    values, attributes = read_crumple(crumple_path, task)
     files = {name: FORMATS.choice(name).filename for name in formats}
+    values, attributes = read_crumple(crumple_path, task)
     lines = [
         f"Realisation {task.thickness_um:g} um, {task.reference_height_mm:g} mm, seed {task.seed}.",
         "SI units; how to open these files: docs/exchange.md.",

@@ -43,6 +43,11 @@ _FOIL = ("sheet", "material", "thickness_um", "reference_height_mm", "seed")
 """Sections of a task that name the realisation."""
 
 
+def physics_codes() -> dict[str, str]:
+    """Fingerprints of what crumples and of what measures, by the names of a cube's attributes."""
+    return {"crumple_code": CRUMPLE.fingerprint(), "response_code": RESPONSE.fingerprint()}
+
+
 def cell_folder(results: Path, cell: Cell) -> Path:
     """Where the records of a realisation lie in the folder of a study."""
     return results / "realisations" / cell.thickness_id / cell.overlength_id / str(cell.seed)

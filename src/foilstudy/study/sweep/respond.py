@@ -64,10 +64,12 @@ def _beyond_validity(task: ResponseTask, values: dict) -> str:
     remedy = "lower dynamics.shown_max_hz or raise dynamics.tolerance"
     if options.reduction != "rational_krylov":
         remedy = f"set dynamics.reduction: rational_krylov, or {remedy}"
+    reach = f"only to {values['valid_to_frequency']:.4g} Hz"
+    if not np.isfinite(values["dynamic_stiffness_re"]).any():
+        reach = "at no frequency of the shown band"
     return (
-        f"dynamic stiffness only to {values['valid_to_frequency']:.0f} Hz, as the "
-        f"{options.reduction} model is wrong by about {100 * error:.2g} % in the shown band: "
-        f"{remedy}"
+        f"dynamic stiffness {reach}, as the {options.reduction} model is wrong by about "
+        f"{100 * error:.2g} % in it: {remedy}"
     )
 
 
