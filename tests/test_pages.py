@@ -17,6 +17,7 @@ from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.study.sweep.crumple import crumple_job
 
 RECORD = "results/thesis/realisations/t500um/h170mm/0/crumple.nc"
+README = (ROOT / "README.md").read_text("utf-8")
 NUMBER = re.compile(r"-?\d+\.?\d*(?:e[-+]?\d+)?")
 
 
@@ -66,9 +67,12 @@ def test_the_python_of_a_page_runs_and_prints_what_the_page_says(block, clone, m
     assert (np.abs(np.log(ours / theirs)) < np.log(3)).all()
 
 
-def test_the_readme_counts_the_crumples_of_the_default_study():
-    (count,) = re.findall(r"then (\d+) crumples on 2 cores", (ROOT / "README.md").read_text())
+def test_the_readme_says_what_the_default_study_is_and_took():
+    (count,) = re.findall(r"then (\d+) crumples on 2 cores", README)
     assert int(count) == len(load_config(ROOT / "config/config.yaml").cells())
+    (took,) = re.findall(r"and (\d+) s for the study \(\[measured\]", README)
+    measured = (ROOT / "benchmarks/results.md").read_text("utf-8")
+    assert f"| study `default`, two cores | {took} s |" in measured
 
 
 # --- the notebook --------------------------------------------------------------------------------
