@@ -314,6 +314,19 @@ def test_matlab_file_of_motion_per_force(contents, folder):
             np.testing.assert_array_equal(ours, contents.motion_per_force(quantity, condition))
 
 
+def test_matlab_matrices_without_the_bottom_ring_give_the_receptance_of_the_other_file(
+    folder, matlab
+):
+    """As the page does it: K(k,k) - w^2*M(k,k) + 1i*w*C(k,k) with k = 7:size(K, 1)."""
+    held = loadmat(folder / "motion_per_force.mat", squeeze_me=True, simplify_cells=True)
+    at = len(held["frequency_Hz"]) // 3
+    w = 2 * np.pi * held["frequency_Hz"][at]
+    k, m, c = (matlab[name][6:, 6:] for name in "KMC")
+    ours = np.linalg.solve(k - w**2 * m + 1j * w * c, np.eye(len(k), 6))[:6]
+    expected = held["bottom_held"]["receptance"][:, :, at]
+    np.testing.assert_allclose(ours, expected, rtol=0, atol=1e-8 * np.abs(expected).max())
+
+
 # --- shapes --------------------------------------------------------------------------------------
 
 
