@@ -131,7 +131,7 @@ def variability_findings(variability: pd.DataFrame) -> list[str]:
         fit = fit_variability(variability, direction)
         slope, low, high = (1000 * part["overlength"] for part in (fit.value, fit.low, fit.high))
         text = (
-            f"The {direction} coefficient of variation is "
+            f"The {direction} coefficient of variation on the crumpled mesh is "
             f"{percent_range(spread.lowest, spread.highest)}, median {percent(spread.median)}"
         )
         if math.isfinite(low):
