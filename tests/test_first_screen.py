@@ -391,3 +391,14 @@ def test_a_phone_scrolls_past_the_view_and_turns_it_by_buttons():
     assert 'event.pointerType === "touch" ? 0 : up' in script
     for act in ("left", "right", "up", "down"):
         assert f'data-act="{act}"' in page and f'["{act}",' in script
+
+
+def test_findings_are_of_trusted_configurations_and_every_section_recalls_the_doubt(tmp_path):
+    page = written(CASES["thin foil not resolved"](), tmp_path)
+    text = words(section(page, "static"))
+    assert "in the 10 of 20 configurations that are trusted, runs from" in text
+    assert "(50 µm" not in text.split("Every configuration")[0]
+    for name in ("static", "prestress", "variability", "dynamic", "eigenfrequency", "system"):
+        assert "Do not trust the stiffness of 10 of 20 configurations." in words(
+            section(page, name)
+        )
