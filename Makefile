@@ -41,6 +41,7 @@ format: $(DEVELOPMENT)
 lock: $(DEVELOPMENT)
 	@$(LOCK) --upgrade requirements/requirements.in -o requirements/requirements.txt
 	@$(LOCK) --upgrade requirements/dev.in -o requirements/dev.txt
+	@$(LOCK) --upgrade requirements/slurm.in -o requirements/slurm.txt
 
 clean:
 	@rm -rf .venv .snakemake .pytest_cache .ruff_cache .hypothesis build src/*.egg-info

@@ -1,7 +1,7 @@
 """The Python of the pages: found, run as a reader would, and what it prints written back.
 
-After a change of numbers, in a clone that holds what the page reads:
-``python tests/pages.py README.md`` brings the printed blocks of a page up to date.
+After a change of numbers ``python tests/pages.py README.md docs/results.md`` brings the printed
+blocks of these pages up to date.
 """
 
 from __future__ import annotations
@@ -10,69 +10,82 @@ import contextlib
 import io
 import re
 import sys
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
-BLOCK = re.compile(
-    r"^```python\n(?P<code>.*?)^```\n"
-    r"(?:\nprints[^\n]*\n\n```\n(?P<printed>.*?)^```$)?",
+_BLOCK = re.compile(
+    r"^```python\n(?P<code>.*?)^```\n(?:\nprints[^\n]*\n\n```\n(?P<printed>.*?)^```$)?",
     re.DOTALL | re.MULTILINE,
 )
 
 
 @dataclass(frozen=True)
 class Block:
-    """A Python block of a page.
+    """A Python block of a page, which runs by itself.
 
     Attributes
     ----------
+    page : Path
+    line : int
+        Before its first one.
     code : str
-    place : str
-        Page and line.
-    stated : str or None
+    printed : str or None
         What the page says that it prints.
-    printed : str
-        What it has printed.
+    place : tuple of int
+        Where that stands in the page.
     """
 
+    page: Path
+    line: int
     code: str
-    place: str
-    stated: str | None
-    printed: str
+    printed: str | None
+    place: tuple[int, int]
+
+    def __str__(self) -> str:
+        return f"{self.page.name}:{self.line + 1}"
+
+    @property
+    def is_module(self) -> bool:
+        """Whether it is a file to be saved, as that of docs/studies.md."""
+        return self.code.startswith('"""')
+
+    def run(self) -> str:
+        """What it prints, run in the working directory."""
+        printed = io.StringIO()
+        code = compile("\n" * self.line + self.code, str(self.page), "exec")
+        with contextlib.redirect_stdout(printed):
+            exec(code, {"__name__": "page"})
+        return printed.getvalue()
+
+
+def blocks(page: Path) -> list[Block]:
+    """The Python blocks of a page."""
+    text = page.read_text("utf-8")
+    return [
+        Block(
+            page,
+            text[: match.start("code")].count("\n"),
+            match["code"],
+            match["printed"],
+            match.span("printed"),
+        )
+        for match in _BLOCK.finditer(text)
+    ]
 
 
 def pages() -> list[Path]:
-    """Every page with Python that runs by itself; a module in the page is none."""
-    found = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
-    return [page for page in found if BLOCK.search(page.read_text("utf-8")) if not is_module(page)]
-
-
-def is_module(page: Path) -> bool:
-    """Whether the Python of a page is a file to be saved, as that of docs/studies.md."""
-    return all(match["code"].startswith('"""') for match in BLOCK.finditer(page.read_text("utf-8")))
-
-
-def run(page: Path) -> Iterator[Block]:
-    """Run the blocks of a page in the working directory, one after another, as in one session."""
-    text = page.read_text("utf-8")
-    space: dict = {"__name__": "page"}
-    for match in BLOCK.finditer(text):
-        line = text[: match.start("code")].count("\n")
-        place = f"{page.relative_to(ROOT)}:{line + 1}"
-        printed = io.StringIO()
-        with contextlib.redirect_stdout(printed):
-            exec(compile("\n" * line + match["code"], str(page), "exec"), space)
-        yield Block(match["code"], place, match["printed"], printed.getvalue())
+    """README and docs."""
+    return [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 
 
 def brought_up_to_date(page: Path) -> str:
     """The text of a page with what its blocks print now."""
     text = page.read_text("utf-8")
-    for block in run(page):
-        if block.stated is not None:
-            text = text.replace(block.stated, block.printed)
+    for block in reversed(blocks(page)):
+        if block.printed is not None:
+            start, end = block.place
+            text = text[:start] + block.run() + text[end:]
     return text
 
 

@@ -60,7 +60,7 @@ def model(structure):
 
 def test_what_a_user_prints_fits_two_lines(start, structure, model):
     objects = [
-        FOIL, FEP, Mesh(), Imperfection(), Method(), OPTIONS, start, start.recipe, start.patch,
+        FOIL, FEP, Mesh(5e-3), Imperfection(), Method(), OPTIONS, start, start.recipe, start.patch,
         start.stressed, start.stressed.section, start.energies(), start.mesh_limit(0),
         structure, structure.stiffness, structure.static, model, start.vibration(OPTIONS),
         Rings.of(start.patch, start.points), Contents.of(start, OPTIONS),
@@ -127,7 +127,7 @@ SLIPS = {
     "correlation length of an imperfection is -1 m": lambda: Imperfection(correlation_length=-1),
     "seed of an imperfection is 1.5; give a whole number": lambda: Imperfection(seed=1.5),
     "element size of a mesh is 0 m": lambda: Mesh(0.0),
-    "'cornr' is not a known element; did you mean corner": lambda: Mesh(element="cornr"),
+    "'cornr' is not a known element; did you mean corner": lambda: Mesh(5e-3, "cornr"),
     "element of a cylinder's patch is -0.005 m": lambda: Patch.for_cylinder(0.2, 0.1, -5e-3),
     "thickness of a shell is 0 m": lambda: cylinder(20e-3, thickness=0.0),
     "share of the critical damping is 5; .* of at least 0 and below 1": lambda: ModalDamping(5),
