@@ -20,7 +20,7 @@ from synthetic import (
 
 from foilstudy.base.numerals import duration, fixed, stiffness
 from foilstudy.config import load_config
-from foilstudy.model.mesh_size import SLENDERNESS_MAX
+from foilstudy.model.mesh_size import ERROR_COEFFICIENT, SLENDERNESS_MAX
 from foilstudy.present.configuration import configuration
 from foilstudy.present.files import StudyFiles
 from foilstudy.present.report import write_report
@@ -304,6 +304,32 @@ def test_refining_the_stiffness_keeps_the_crumples():
     assert "the crumples stay" in cure.cost
 
 
+def folded_cube(angle_deg, **options):
+    """Nothing is wrong but that the crumples of the thinnest foil fold so sharply."""
+    cube = make_cube((250.0, 500.0), (135.0, 250.0), 3, **options)
+    cube["fold_angle"] = 40.0 * xr.ones_like(cube["element_size"])
+    cube["fold_angle"][0, 1] = angle_deg
+    return cube
+
+
+def test_a_mesh_that_does_not_follow_the_folds_is_named_and_made_finer():
+    assert banner(folded_cube(59), assess_trust(folded_cube(59))) is None
+    cube = folded_cube(80, case=SyntheticCase(element_size_mm=4.0))
+    verdict = assess_trust(cube)
+    assert verdict.trusted.sum() == 6 and verdict.folded.sel(thickness=250)[1].all()
+    found = banner(cube, verdict)
+    assert "1 of 4 configurations" in found.verdict
+    (reason,) = found.reasons
+    assert "turn 80° from one element to the next at 250 µm at 92.3 %" in reason
+    first, *_ = found.cures
+    # 4 mm is 0.8 sqrt(R t); 60/80 of that has an energy error of 17 %, more than that of auto
+    assert first.keys == ("mesh.element_size_mm: auto",)
+    sharper = folded_cube(150, case=SyntheticCase(element_size_mm=4.0))
+    first, *_ = banner(sharper, assess_trust(sharper)).cures
+    error = ERROR_COEFFICIENT * (0.8 * 60 / 150) ** 2
+    assert first.keys[1] == f"mesh.energy_error_percent: {np.floor(1e3 * error) / 10:g}"
+
+
 def test_foil_that_no_mesh_resolves_is_left_out_of_the_cure(tmp_path):
     thin = make_cube((1.0, 500.0), (135.0, 250.0), 1, case=COARSE)
     first, *_ = cures(thin, Need(mesh=True, refinements=None))
@@ -391,3 +417,14 @@ def test_a_phone_scrolls_past_the_view_and_turns_it_by_buttons():
     assert 'event.pointerType === "touch" ? 0 : up' in script
     for act in ("left", "right", "up", "down"):
         assert f'data-act="{act}"' in page and f'["{act}",' in script
+
+
+def test_findings_are_of_trusted_configurations_and_every_section_recalls_the_doubt(tmp_path):
+    page = written(CASES["thin foil not resolved"](), tmp_path)
+    text = words(section(page, "static"))
+    assert "in the 10 of 20 configurations that are trusted, runs from" in text
+    assert "(50 µm" not in text.split("Every configuration")[0]
+    for name in ("static", "prestress", "variability", "dynamic", "eigenfrequency", "system"):
+        assert "Do not trust the stiffness of 10 of 20 configurations." in words(
+            section(page, name)
+        )

@@ -47,10 +47,7 @@ def draw(cube):
         ax.set_ylim(style.span(thicknesses, 1.3))
         style.value_ticks(ax.yaxis, thicknesses)
         _means(ax, overlengths, thicknesses, grid, levels, norm)
-        for i, j in np.argwhere(np.isfinite(grid) & ~trusted.astype(bool)):
-            ax.text(
-                overlengths[j], thicknesses[i], "?", ha="center", va="center", zorder=5, fontsize=7
-            )
+        _doubts(ax, overlengths, thicknesses, np.isfinite(grid) & ~trusted.astype(bool))
         _fit(ax, simulated_law(cube, direction, shown_source(cube, direction)).law, levels)
     axes[0].set_ylabel("thickness (µm)")
     bar = figure.colorbar(
@@ -73,6 +70,13 @@ def _means(ax, overlengths, thicknesses, grid, levels, norm) -> None:
     ax.scatter(x, y, c=grid, norm=norm, cmap=_COLOUR_MAP, s=42, edgecolor="white", lw=1, zorder=4)
     failed = ~np.isfinite(grid)
     ax.plot(x[failed], y[failed], "x", color="0.5", ms=8)
+
+
+def _doubts(ax, overlengths, thicknesses, doubted) -> None:
+    for i, j in np.argwhere(doubted):
+        at = overlengths[j], thicknesses[i]
+        ax.plot(*at, "o", color="white", mec="0.3", ms=9, zorder=5)
+        ax.text(*at, "?", ha="center", va="center_baseline", fontsize=8, zorder=6)
 
 
 def _interpolated(overlengths, thicknesses, grid):

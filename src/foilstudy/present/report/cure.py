@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from foilstudy.base.numerals import duration, nominal
 from foilstudy.config import ConfigError, Sheet, StudyConfig, load_config
+from foilstudy.config.mesh import ENERGY_ERROR_DEFAULT_PERCENT
 from foilstudy.model.mesh_size import (
     ERROR_COEFFICIENT,
     ERROR_ORDER,
@@ -54,10 +56,14 @@ class Need:
         Crumples that their mesh does not resolve.
     refinements : int or None
         Of the stiffness, that are needed; None where those of the study are enough.
+    error : float or None
+        Largest energy error, a share, of a mesh that follows the folds; None where that of the
+        study does.
     """
 
     mesh: bool
     refinements: int | None
+    error: float | None = None
 
 
 def cures(cube, need: Need) -> list[Cure]:
@@ -70,7 +76,7 @@ def cures(cube, need: Need) -> list[Cure]:
         keys = (f"stiffness.refinements: {need.refinements}",)
         stiffness = dict(content.get("stiffness") or {})
         content["stiffness"] = stiffness | {"refinements": need.refinements}
-    if not need.mesh:
+    if not need.mesh and need.error is None:
         study = _study(content)
         return [Cure(keys, "", _cost(study, crumples=False))] if study else []
     thicknesses = content["sweep"]["thickness_um"]
@@ -81,7 +87,7 @@ def cures(cube, need: Need) -> list[Cure]:
         left = (f"sweep.thickness_um: [{', '.join(f'{t:g}' for t in kept)}]",) if first else ()
         found = [
             Cure((*_keys(mesh), *keys, *left), _sizes(study), _cost(study, crumples=True))
-            for mesh in _meshes(content)
+            for mesh in _meshes(content, need.error)
             if (study := _study(content | {"mesh": mesh}))
         ]
         if found:
@@ -107,13 +113,18 @@ def _content(cube) -> dict[str, Any]:
     return content
 
 
-def _meshes(content: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
+def _meshes(content: Mapping[str, Any], error: float | None) -> Iterator[dict[str, Any]]:
     """Sections `mesh` that resolve every foil, from the finest to the coarsest."""
     section = content.get("mesh") or {}
     element = {"element": section["element"]} if "element" in section else {}
+    largest = math.inf if error is None else math.floor(1e3 * error) / 10
+    if largest < ENERGY_ERROR_DEFAULT_PERCENT:
+        yield {"element_size_mm": "auto", "energy_error_percent": largest} | element
+        return
     yield {"element_size_mm": "auto"} | element
-    for error in (COARSER_ERROR_PERCENT, round(100 * COARSEST_ERROR, 6)):
-        yield {"element_size_mm": "auto", "energy_error_percent": error} | element
+    for percent in (COARSER_ERROR_PERCENT, round(100 * COARSEST_ERROR, 6)):
+        if percent <= largest:
+            yield {"element_size_mm": "auto", "energy_error_percent": percent} | element
     if element not in ({}, {"element": "corner"}):  # the only one that knows `auto`
         sheet = content.get("sheet") or {}
         radius = float(sheet.get("diameter_mm", Sheet().diameter_mm)) / 2e3

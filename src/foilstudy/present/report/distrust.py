@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from foilstudy.base.numerals import number_range, percent, plural
-from foilstudy.model.mesh_size import SLENDERNESS_MAX
+from foilstudy.model.mesh_size import SLENDERNESS_MAX, energy_error_at
+from foilstudy.model.shell.folding import FOLD_ANGLE_MAX_DEG
 from foilstudy.present.configuration import configuration
 from foilstudy.present.report.configurations import named
 from foilstudy.present.report.cure import Cure, Need, cures
@@ -47,6 +48,7 @@ def banner(cube, trust: Trust) -> Banner | None:
     refinements = _refinements(cube)
     reasons = [
         *_unresolved(trust),
+        *_folded(trust),
         *_inaccurate(trust),
         *_unstated(trust, refinements),
     ]
@@ -75,6 +77,17 @@ def _unresolved(trust: Trust):
             f"{SLENDERNESS_MAX:g} at most. A finer mesh crumples to another shape, possibly "
             "several times as stiff or as soft; the stated mesh error, which is that of the given "
             "shape, does not tell."
+        )
+
+
+def _folded(trust: Trust):
+    cells = (trust.folded & ~trust.unresolved).any("direction")
+    if cells.any():
+        angles = Spread.of(trust.fold_angle.where(cells))
+        yield (
+            f"The sharpest folds turn {number_range(angles.lowest, angles.highest)}° from one "
+            f"element to the next at {named(cells)}; a mesh that follows them turns "
+            f"{FOLD_ANGLE_MAX_DEG:g}° at most."
         )
 
 
@@ -129,8 +142,18 @@ def _cures(cube, trust: Trust) -> tuple[Cure, ...]:
         needed = 1
     elif (trust.inaccurate & ~trust.unresolved).any():
         needed = max(2, refinements + 1)
-    need = Need(mesh=bool(trust.unresolved.any()), refinements=needed)
-    return tuple(cures(cube, need)) if need.mesh or needed is not None else ()
+    folded = trust.folded & ~trust.unresolved
+    need = Need(bool(trust.unresolved.any()), needed, _error_of_folds(trust, folded))
+    wanted = need.mesh or needed is not None or need.error is not None
+    return tuple(cures(cube, need)) if wanted else ()
+
+
+def _error_of_folds(trust: Trust, folded) -> float | None:
+    """Energy error of the mesh on which the folds would turn no more than they may."""
+    if not folded.any():
+        return None
+    narrower = trust.slenderness * FOLD_ANGLE_MAX_DEG / trust.fold_angle
+    return float(energy_error_at(narrower.where(folded.any("direction"))).min())
 
 
 def _refinements(cube) -> int:

@@ -30,6 +30,9 @@ from foilstudy.present.statistics.variability import fit_variability, plain_scat
 def stiffness_findings(summary: pd.DataFrame) -> list[str]:
     """Say what the static stiffness table shows, one paragraph per direction.
 
+    Of configurations that are not trusted it says no more than how large the stiffness comes out,
+    and that only where there are no others.
+
     Parameters
     ----------
     summary
@@ -39,22 +42,31 @@ def stiffness_findings(summary: pd.DataFrame) -> list[str]:
     mesh = mesh_words(summary)
     paragraphs = []
     for direction, cells in _measured(summary, "best"):
-        low, high = cells.loc[cells["best"].idxmin()], cells.loc[cells["best"].idxmax()]
+        trusted = cells[cells["trusted"].astype(bool)]
+        shown = trusted if len(trusted) else cells
+        low, high = shown.loc[shown["best"].idxmin()], shown.loc[shown["best"].idxmax()]
         text = (
-            f"The {direction} stiffness {mesh}, mean of the realisations, runs from "
-            f"{stiffness(low['best'])} ({_case(low)}) to {stiffness(high['best'])} ({_case(high)})"
+            f"The {direction} stiffness {mesh}, mean of the realisations{_share(trusted, cells)}, "
+            f"runs from {stiffness(low['best'])} ({_case(low)}) to {stiffness(high['best'])} "
+            f"({_case(high)})"
         )
-        doubted = int((~cells["trusted"].astype(bool)).sum())
-        if doubted:
-            text += f", of {plural(len(cells), 'configuration')} of which {doubted} are not trusted"
-        bound = Spread.of(cells["best"] / cells["cylinder_bound"])
+        bound = Spread.of(trusted["best"] / trusted["cylinder_bound"])
         if bound:
             text += f", {percent_range(bound.lowest, bound.highest)} of the uncrumpled cylinder's"
-        clauses = [clause for clause in (_beside_published(cells), _monotone(cells)) if clause]
+        clauses = [clause for clause in (_beside_published(trusted), _monotone(trusted)) if clause]
         if clauses:
             text += f"; it {'; it '.join(clauses)}"
         paragraphs.append(f"{text}.")
     return paragraphs + _axial_below_radial(summary)
+
+
+def _share(trusted: pd.DataFrame, cells: pd.DataFrame) -> str:
+    """Name the configurations that a finding is of, where these are not all."""
+    if len(trusted) == len(cells):
+        return ""
+    if not len(trusted):
+        return f" in {plural(len(cells), 'configuration')}, none of them trusted"
+    return f" in the {len(trusted)} of {len(cells)} configurations that are trusted"
 
 
 def mesh_words(summary: pd.DataFrame) -> str:
@@ -66,7 +78,6 @@ def mesh_words(summary: pd.DataFrame) -> str:
 
 
 def _beside_published(cells: pd.DataFrame) -> str:
-    cells = cells[cells["trusted"].astype(bool)]
     ratios = [
         f"{number_range(spread.lowest, spread.highest)} times the published {name}"
         for name in ("simulation", "experiment")
@@ -94,13 +105,14 @@ def _monotone(cells: pd.DataFrame) -> str:
 
 def _axial_below_radial(summary: pd.DataFrame) -> list[str]:
     keys = ["thickness_um", "overlength_percent"]
-    grid = summary.pivot(index=keys, columns="direction", values="best").dropna()
+    trusted = summary[summary["trusted"].astype(bool)]
+    grid = trusted.pivot(index=keys, columns="direction", values="best").dropna()
     if not {"axial", "radial"} <= set(grid.columns) or grid.empty:
         return []
     below = int((grid["axial"] < grid["radial"]).sum())
     return [
         f"The axial stiffness is below the radial one in {below} of "
-        f"{plural(len(grid), 'configuration')}."
+        f"{plural(len(grid), 'trusted configuration')}."
     ]
 
 
@@ -119,7 +131,7 @@ def variability_findings(variability: pd.DataFrame) -> list[str]:
         fit = fit_variability(variability, direction)
         slope, low, high = (1000 * part["overlength"] for part in (fit.value, fit.low, fit.high))
         text = (
-            f"The {direction} coefficient of variation is "
+            f"The {direction} coefficient of variation on the crumpled mesh is "
             f"{percent_range(spread.lowest, spread.highest)}, median {percent(spread.median)}"
         )
         if math.isfinite(low):

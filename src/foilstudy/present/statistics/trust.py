@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from foilstudy.model.mesh_size import SLENDERNESS_MAX
+from foilstudy.model.shell.folding import FOLD_ANGLE_MAX_DEG
 from foilstudy.present.comparison import studied_case
-from foilstudy.present.statistics.cells import good, relative_mesh_error
+from foilstudy.present.statistics.cells import good, measured, relative_mesh_error
 
 ERROR_MAX = 0.2
 """Largest stated mesh error, a share of the value, of a stiffness that is trusted."""
@@ -25,19 +26,25 @@ class Trust:
     ----------
     slenderness : xarray.DataArray (thickness, overlength)
         Element size over sqrt(R t), the largest of the realisations; NaN where it is not known.
+    fold_angle : xarray.DataArray (thickness, overlength)
+        Degrees from element to element (see `foilstudy.model.shell.folding`), the median of the
+        realisations; NaN where it was not recorded.
     mesh_error : xarray.DataArray (thickness, overlength, direction)
         Stated error over the mesh limit, the largest of the realisations; NaN where none is.
     known : xarray.DataArray of bool (thickness, overlength, direction)
         Whether there is any stiffness.
-    unresolved, unstated, inaccurate : xarray.DataArray of bool (thickness, overlength, direction)
-        Why a known one is not trusted: its folds are finer than the mesh can follow; a mesh error
-        is not stated; that is larger than `ERROR_MAX`.
+    unresolved, folded, unstated, inaccurate : xarray.DataArray of bool, as `known`
+        Why a known one is not trusted: its elements are wider than folds; its folds turn more than
+        `FOLD_ANGLE_MAX_DEG` from one element to the next; a mesh error is not stated; that is
+        larger than `ERROR_MAX`.
     """
 
     slenderness: object
+    fold_angle: object
     mesh_error: object
     known: object
     unresolved: object
+    folded: object
     unstated: object
     inaccurate: object
 
@@ -49,7 +56,7 @@ class Trust:
     @property
     def doubted(self):
         """Known stiffnesses that are not trusted."""
-        return self.unresolved | self.unstated | self.inaccurate
+        return self.unresolved | self.folded | self.unstated | self.inaccurate
 
 
 def assess_trust(cube) -> Trust:
@@ -65,9 +72,11 @@ def assess_trust(cube) -> Trust:
     unstated = (np.isfinite(value) & ~np.isfinite(error)).any("seed")
     largest = error.max("seed")
     inaccurate = known & (largest > ERROR_MAX * (1 + _ROUNDING))
+    fold_angle = _fold_angle(cube)
+    folded = known & (fold_angle > FOLD_ANGLE_MAX_DEG)
     order = ("thickness", "overlength", "direction")
-    arrays = (largest, known, unresolved, unstated, inaccurate)
-    return Trust(slenderness, *(array.transpose(*order) for array in arrays))
+    arrays = (largest, known, unresolved, folded, unstated, inaccurate)
+    return Trust(slenderness, fold_angle, *(array.transpose(*order) for array in arrays))
 
 
 def _slenderness(cube):
@@ -76,6 +85,12 @@ def _slenderness(cube):
         return cube["thickness"] * cube["overlength"] * np.nan
     size = cube["element_size"].max("seed").transpose("thickness", "overlength")
     return size / np.sqrt(case.diameter_mm / 2 * cube["thickness"] * 1e-3)
+
+
+def _fold_angle(cube):
+    if "fold_angle" not in cube:  # of a release before 0.4
+        return cube["thickness"] * cube["overlength"] * np.nan
+    return measured(cube, "fold_angle").median("seed").transpose("thickness", "overlength")
 
 
 def where_trusted(cube, name: str):
