@@ -156,6 +156,12 @@ def test_even_grid_shows_the_sharpest_resonance_or_says_that_it_does_not(model, 
     assert grid.bandwidth_hz == pytest.approx(widths[1][inside].min())
 
 
+def test_even_grid_of_a_narrow_band_has_the_spacing_of_one_from_zero(model):
+    grid = EvenGrid.of(model, ModalDamping(0.3), 250.0, BAND_HZ)
+    assert 250.0 - 1e-9 <= grid.frequencies[0] and grid.frequencies[-1] <= BAND_HZ + 1e-9
+    assert LINES_MIN <= BAND_HZ / grid.spacing <= LINES_MAX
+
+
 def test_even_grid_without_a_resonance_says_so(model):
     grid = EvenGrid.of(model, FIVE_PERCENT, 0.5, 2.0)
     assert "no resonance" in grid.words and grid.frequencies[-1] == pytest.approx(2.0)

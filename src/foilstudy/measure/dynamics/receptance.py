@@ -23,7 +23,7 @@ bottom ring held in all six of its motions, as on a heavy table."""
 LINES_PER_BANDWIDTH = 3
 """Frequencies within the half-power bandwidth of the sharpest resonance, at least."""
 LINES_MIN, LINES_MAX = 400, 4000
-"""Of an even grid; the larger one bounds the size of files."""
+"""Of an even grid from zero to its end; the larger one bounds the size of files."""
 
 
 def receptance(
@@ -106,8 +106,8 @@ class EvenGrid:
     ) -> EvenGrid:
         """The widest spacing that shows every resonance in the band, free and bottom held.
 
-        `LINES_PER_BANDWIDTH` frequencies within the least bandwidth and at least `LINES_MIN` in
-        the band, but no more than `LINES_MAX`: `words` says where those do not show it.
+        `LINES_PER_BANDWIDTH` frequencies within the least bandwidth and at least `LINES_MIN` up
+        to the end, but no more than `LINES_MAX`: `words` says where those do not show it.
         """
         found = [np.array(resonances(model, damping, condition)) for condition in CONDITIONS]
         hz, widths = np.concatenate(found, axis=1)
