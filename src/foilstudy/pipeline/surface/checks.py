@@ -123,7 +123,8 @@ def _check_first_knot(points: np.ndarray) -> None:
     if at_middles < _PHASE * at_knots and at_knots > _SMOOTH * np.abs(points).max():
         raise ValueError(
             "the first row lies in the middle of an element, where a grid with 2 points per "
-            "element begins at an edge; give all rows from ring to ring, or set points_per_element to 1."
+            "element begins at an edge; give all rows from ring to ring, or set "
+            "points_per_element to 1."
         )
 
 
