@@ -42,7 +42,7 @@ def drawn(seed: int) -> dict:
 
     corner = rng.random() < 0.5
     diameter = pick(CORNERS["diameter_mm"]) if corner else spread(1, 10_000)
-    thickest = 1e3 * diameter / 2 / 20
+    thickest = min(1e3 * diameter / 2 / 20, 10_000.0)
     thickness = spread(max(0.1, 1e-6 * diameter), thickest)
     if corner:
         thickness = min(pick((*CORNERS["thickness_um"], thickest)), thickest)
@@ -92,8 +92,8 @@ def drawn(seed: int) -> dict:
         "imperfection": imperfection,
         "mesh": {"element_size_mm": size, "element": pick(("corner", "corner", "one_point"))},
         "relaxation": {
-            "ramp_steps": int(pick((100, 300, 600))),
-            "relaxation_steps_max": int(pick((200, 2000, 4000))),
+            "ramp_steps": int(pick((10, 100, 300))),
+            "relaxation_steps_max": int(pick((0, 20, 2000, 4000))),
         },
         "stiffness": {"refinements": int(pick((0, 1)))},
         "dynamics": dynamics,
