@@ -54,7 +54,7 @@ def drawn(seed: int) -> dict:
     if not height > gap:
         gap = height / 1.1
     around = int(rng.integers(24, 48))
-    size = min(np.pi * diameter / around, height / 8.01)
+    size = min(np.pi * diameter / around, height / 8.01, 1000.0)
     first = thickness * 1e-6 / (diameter * 1e-3) ** 2 * np.sqrt(modulus * 1e6 / density)
     highest = float(np.clip(first * spread(0.3, 30), 0.02, 1e6))
     kind = pick(("gaussian", "gaussian", "smoothed", "buckling_modes"))
