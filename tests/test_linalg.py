@@ -1,5 +1,9 @@
 """Factorisation, inertia and eigenpairs against dense linear algebra."""
 
+import os
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 import scipy.linalg
@@ -311,3 +315,24 @@ def test_a_kept_analysis_changes_no_bit():
     assert not any(job.takes(held) for job in pardiso._analysed)  # taken
     assert np.array_equal(again.solve(probe), expected)
     assert again.negative_eigenvalues == inertia
+
+
+@pytest.mark.skipif(not pardiso.available(), reason="no MKL runtime")
+@pytest.mark.parametrize(
+    "variable", ["MKL_INTERFACE_LAYER=ILP64", "MKL_INTERFACE_LAYER=GNU", "MKL_THREADING_LAYER=TBB"]
+)
+def test_layers_of_mkl_that_a_shell_asks_for_are_not_taken(variable):
+    """Longer integers made it refuse the matrix, a layer that is not installed end the process."""
+    code = (
+        "import scipy.sparse as s; from foilstudy.linalg.pardiso import PardisoFactorisation as P; "
+        "print(P(s.csr_matrix([[4.0, 1.0], [1.0, 2.0]])).solve(__import__('numpy').ones(2)).sum())"
+    )
+    name, _, value = variable.partition("=")
+    run = subprocess.run(
+        [sys.executable, "-c", code],
+        env=os.environ | {name: value},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert float(run.stdout) == pytest.approx(4 / 7)

@@ -2,6 +2,7 @@
 
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -9,14 +10,22 @@ import time
 from pathlib import Path
 
 import frozen
+import markupsafe
+import numpy as np
 import pytest
 import xarray as xr
 import yaml
+from small_study import SECTIONS, compute, sections_with
 
+from foilstudy.base.record import read_record
+from foilstudy.config.sections import CONSTANTS
+from foilstudy.export.formats import FORMATS
+from foilstudy.model.materials import MATERIALS
 from foilstudy.present.figures import FIGURES
 
 ROOT = Path(__file__).parents[1]
 TINY = yaml.safe_load((ROOT / "config/tiny.yaml").read_text(encoding="utf-8"))
+FEP = {key: getattr(MATERIALS["FEP"], key) for key in CONSTANTS}
 SNAKEMAKE = str(Path(sys.executable).with_name("snakemake"))
 # What differs between two runs of one study, and nothing else may.
 COSTS = ("seconds_crumple", "seconds_static", "seconds_dynamic", "peak_memory")
@@ -58,18 +67,16 @@ def changed(**sections):
 
 
 @pytest.fixture(scope="module")
-def finished(tmp_path_factory):
-    """Folder in which the tiny study counts as finished: its outputs exist, empty but recorded."""
-    folder = tmp_path_factory.mktemp("finished")
-    summary = snakemake(folder, TINY, "--summary")
-    for line in summary.stdout.splitlines():
-        if line.startswith("results/"):
-            path = folder / line.split("\t")[0]
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.touch()
-    touched = snakemake(folder, TINY, "--touch", "--forceall", "-j1")
-    assert touched.returncode == 0, touched.stderr
+def computed(tmp_path_factory):
+    """A folder with a finished small study, of which Snakemake has never heard."""
+    folder = tmp_path_factory.mktemp("computed")
+    compute(folder / "results" / "small")
     return folder
+
+
+@pytest.fixture
+def finished(computed, tmp_path):
+    return Path(shutil.copytree(computed, tmp_path / "copied"))
 
 
 def test_tiny_study_has_one_job_per_step_and_realisation(tmp_path):
@@ -103,31 +110,125 @@ def test_unwritable_results_are_refused_in_one_sentence(tmp_path):
     assert len(said) == 1 and "results/tiny: cannot be written" in said[0]
 
 
+@pytest.mark.parametrize("place", ["results", "results/tiny"])
+def test_a_link_that_leads_nowhere_is_named(tmp_path, place):
+    (tmp_path / place).parent.mkdir(exist_ok=True)
+    (tmp_path / place).symlink_to("/nowhere/at/all")
+    run = snakemake(tmp_path, TINY, "--dry-run")
+    assert run.returncode != 0
+    assert f"({place} is a link to /nowhere/at/all, which is not there)" in run.stdout
+
+
+def test_a_home_without_a_place_for_caches_is_no_obstacle(tmp_path, monkeypatch):
+    monkeypatch.setenv("HOME", "/dev/null")
+    monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
+    assert plan(tmp_path, TINY)["crumple"] == 8
+
+
+WILD = "{x} {wildcards.y} {{ $HOME `ls` \"q\" 's' \\ % <b>&amp;\n\u591a\U0001f642 {"
+
+
+def test_texts_and_paths_may_hold_anything(tmp_path):
+    """Snakemake takes what stands in braces for a wildcard, a shell what follows a dollar."""
+    folder = tmp_path / "{a} $b 'c\" \u00e9"
+    folder.mkdir()
+    study = changed(report={"title": WILD}, material={"name": WILD, **FEP})
+    assert plan(folder, study)["report"] == 1
+
+
+@pytest.mark.slow
+def test_wild_texts_reach_the_report(tmp_path):
+    study = changed(
+        report={"title": WILD},
+        material={"name": WILD, **FEP},
+        sweep={"realisations": 1, "thickness_um": [500]},
+        export={"formats": list(FORMATS)},
+    )
+    run = snakemake(tmp_path, study, "-j2")
+    assert run.returncode == 0, run.stderr
+    page = (tmp_path / "results/tiny/report.html").read_text(encoding="utf-8")
+    assert str(markupsafe.escape(WILD)) in page
+    assert snakemake(tmp_path, study, "--report", "all.html").returncode == 0
+    assert plan(tmp_path, study) == {}
+
+
+@pytest.mark.slow
+def test_an_interrupted_study_says_how_to_go_on_and_does(tmp_path):
+    process = subprocess.Popen(
+        command(tmp_path, TINY, "-j2"),
+        cwd=ROOT,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    for line in process.stderr:
+        if line.startswith("["):
+            break
+    os.killpg(process.pid, signal.SIGINT)
+    said = [line for line in process.stderr if not line.startswith("[")]
+    assert said == ["Stopped; the same command goes on where it stopped.\n"]
+    assert process.wait() == 1
+    assert 0 < plan(tmp_path, TINY)["crumple"] < 8
+
+
 def test_finished_study_has_nothing_to_do(finished):
-    assert plan(finished, TINY) == {}
+    assert plan(finished, SECTIONS) == {}
 
 
 def test_title_leaves_all_physics_alone(finished):
-    jobs = plan(finished, changed(report={"title": "Another title"}))
-    assert jobs["report"] == 1
-    assert not {"crumple", "response", "cylinder"} & set(jobs)
+    jobs = plan(finished, sections_with(report={"title": "Another title"}))
+    assert (jobs["cube"], jobs["tables"], jobs["report"]) == (1, 1, 1)
+    assert not {"crumple", "response", "cylinder", "export"} & set(jobs)
 
 
 def test_new_thickness_leaves_finished_realisations_alone(finished):
-    jobs = plan(finished, changed(sweep={"thickness_um": [250, 500, 130]}))
+    jobs = plan(finished, sections_with(sweep={"thickness_um": [500, 130]}))
     assert (jobs["crumple"], jobs["response"], jobs["cube"]) == (4, 4, 1)
 
 
 def test_dynamics_leaves_crumples_alone(finished):
-    jobs = plan(finished, changed(dynamics={"frequencies": 41}))
-    assert jobs["response"] == 8
+    jobs = plan(finished, sections_with(dynamics={"frequencies": 5}))
+    assert jobs["response"] == 4
     assert "crumple" not in jobs
 
 
 def test_imperfection_crumples_all_again(finished):
-    jobs = plan(finished, changed(imperfection={"kind": "gaussian", "amplitude_um": 20}))
-    assert (jobs["crumple"], jobs["response"]) == (8, 8)
+    jobs = plan(finished, sections_with(imperfection={"amplitude_um": 20}))
+    assert (jobs["crumple"], jobs["response"], jobs["export"]) == (4, 4, 4)
     assert "cylinder" not in jobs
+
+
+def test_another_material_is_told_and_crumpled_whatever_the_dates(finished):
+    """As in a clone or a copy, where every file may have any date."""
+    for path in finished.rglob("*"):
+        os.utime(path)
+    config = sections_with(material={"name": "PET"})
+    run = snakemake(finished, config, "--dry-run")
+    said = 'small: 6 files, each was made for another task (material.name "FEP", not "PET", and'
+    assert said in run.stdout + run.stderr
+    jobs = plan(finished, config)
+    assert (jobs["crumple"], jobs["response"], jobs["cylinder"], jobs["cube"]) == (4, 4, 1, 1)
+
+
+def test_a_cube_without_its_records_stops_nobody(finished):
+    """As a clone brings it along."""
+    shutil.rmtree(finished / "results/small/realisations")
+    jobs = plan(finished, SECTIONS)
+    assert (jobs["crumple"], jobs["response"], jobs["cube"], jobs["report"]) == (4, 4, 1, 1)
+
+
+def test_a_spoilt_record_is_repaired_by_the_same_command(finished):
+    record = finished / "results/small/realisations/t500um/h143mm/0/crumple.nc"
+    whole = record.read_bytes()
+    record.write_bytes(whole[:1000])
+    target = str(record.relative_to(finished))
+    run = snakemake(finished, SECTIONS, "-j1", target)
+    assert run.returncode == 0, run.stderr
+    assert "small: crumple.nc cannot be read as a record" in run.stdout + run.stderr
+    values, _ = read_record(record)
+    record.write_bytes(whole)
+    before, _ = read_record(record)
+    np.testing.assert_array_equal(values["control_points"], before["control_points"])
 
 
 def assert_same_cube(first, second):

@@ -8,15 +8,23 @@ still in the log file under ``.snakemake/log``. ``workflow/profiles/default`` se
 
 from __future__ import annotations
 
+import errno
+import logging
+import re
+import signal
 import sys
+import threading
 import time
 from contextlib import suppress
+from io import TextIOWrapper
 from logging import WARNING, LogRecord
 from pathlib import Path
 from textwrap import shorten
 
 from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
+
+from .caches import place_for_caches
 
 __all__ = ["LogHandler"]
 
@@ -28,27 +36,46 @@ _WORTH_SHOWING = (
     "Nothing to be done",
     "This was a dry-run",
     "Elapsed time",
-    "Terminating processes",
     "Report created",
     "Report:",
     "Unlocked",
 )
+_STOPPED = "Stopped; the same command goes on where it stopped."
 # The job's own line and log say more than the shell command that Snakemake quotes with these.
 _SAID_BY_THE_JOB = ("CalledProcessError", "RuleException", "SpawnedJobError")
-# A file that Snakemake cannot open is the user's slip, whose last line says it all.
-_NO_TRACEBACK = ("FileNotFoundError", "IsADirectoryError", "PermissionError")
+# A file that cannot be read or written is for the user to mend, and no traceback helps with it.
+_FAULT_OF_A_FILE = re.compile(r"\[Errno (\d+)\] ([^:)\n]*)(?:: '(.*?)')?")
+_REMEDIES = {
+    errno.ENOSPC: "make room, then start the same command again",
+    errno.EDQUOT: "make room, then start the same command again",
+    errno.EEXIST: "remove what stands in its place, such as a link that leads nowhere",
+    errno.ENOTDIR: "remove what stands in place of a folder",
+}
+_REMEDY = "check its path and permissions, then start the same command again"
 
 
 class LogHandler(LogHandlerBase):
     """Writes what a study is doing to the terminal."""
 
     def __post_init__(self) -> None:
+        # here, as every Snakemake of the environment imports this package to find its loggers
+        from .configuration import refuse_unreadable_config
+
+        refuse_unreadable_config()
+        self._caches = place_for_caches()
+        logging.raiseExceptions = False  # those of Snakemake's log file, on a full disk
         self._stream = sys.stdout if self.common_settings.stdout else sys.stderr
+        if isinstance(self._stream, TextIOWrapper):
+            # a terminal that lacks a character of a name shows its number
+            self._stream.reconfigure(errors="backslashreplace")
         self._jobs: dict[int, tuple[str, list[str]]] = {}
         self._finished: list[int] = []
         self._started = time.monotonic()
         self._planned = False
         self._first_end: float | None = None
+        self._stopping = False
+        if threading.current_thread() is threading.main_thread():
+            self._expect_ctrl_c()
 
     writes_to_stream = True
     writes_to_file = False
@@ -59,6 +86,8 @@ class LogHandler(LogHandlerBase):
 
     def emit(self, record: LogRecord) -> None:
         """Write the record, if it is one that a user follows."""
+        if self._stopping:  # all that comes now is a consequence
+            return
         event = getattr(record, "event", None)
         if event == LogEvent.RUN_INFO:
             self._write_plan(record.stats)
@@ -74,12 +103,32 @@ class LogHandler(LogHandlerBase):
             self._write(getattr(record, "shellcmd", None) or "")
         elif event == LogEvent.ERROR and record.exception in _SAID_BY_THE_JOB:
             return
-        elif event == LogEvent.ERROR and record.exception in _NO_TRACEBACK:
-            self._write(record.getMessage().strip().splitlines()[-1])
+        elif event == LogEvent.ERROR and (fault := _FAULT_OF_A_FILE.search(record.getMessage())):
+            number, what, path = fault.groups()
+            remedy = _REMEDIES.get(int(number), _REMEDY)
+            self._write(f"{path or Path.cwd()}: {what.strip()}; {remedy}.")
         elif record.levelno >= WARNING or self.common_settings.verbose:
             self._write(record.getMessage())
         elif event is None and str(record.msg).startswith(_WORTH_SHOWING):
             self._write(record.getMessage())
+
+    def _expect_ctrl_c(self) -> None:
+        """Answer an interrupt with one line, whether Snakemake expects it at that moment or not."""
+        interrupt, show = signal.getsignal(signal.SIGINT), sys.excepthook
+
+        def stop(number, frame):
+            if not self._stopping:
+                self._write(_STOPPED)
+            self._stopping = True
+            return interrupt(number, frame)
+
+        def show_others(kind, error, traceback):
+            if not (self._stopping and issubclass(kind, KeyboardInterrupt)):
+                show(kind, error, traceback)
+
+        if callable(interrupt):  # else a shell has this run ignore it
+            signal.signal(signal.SIGINT, stop)
+            sys.excepthook = show_others
 
     def _write(self, line: str) -> None:
         # The reader of a pipe may have seen enough; the study goes on.
@@ -123,8 +172,10 @@ class LogHandler(LogHandlerBase):
 
     def _write_failure(self, record: LogRecord) -> None:
         name, logs = self._jobs.get(record.jobid, (record.rule_name, record.log))
-        self._write(f"FAILED {name}; its log {', '.join(logs)} ends with:")
-        for line in _last_lines(logs, LOG_LINES_SHOWN):
+        lines = _last_lines(logs, LOG_LINES_SHOWN)
+        ends = "ends with:" if lines else "is empty, as it is where the disk is full."
+        self._write(f"FAILED {name}; its log {', '.join(logs)} {ends}")
+        for line in lines:
             self._write(f"    {line}")
 
 

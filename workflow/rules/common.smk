@@ -5,13 +5,18 @@ import os
 import shlex
 import subprocess
 import sys
-from importlib.metadata import version
 from pathlib import Path
 
-from foilstudy.config import ConfigError, load_config
+from foilstudy.base.manifest import MANIFEST
+from foilstudy.config import ConfigError, load_merged
 from foilstudy.present.figures import FIGURES
+from foilstudy.present.files import StudyFiles
+from foilstudy.present.shown import shown
 from foilstudy.study.registry import refuse_reserved_name
 from snakemake.logging import logger
+
+
+DEFAULT_CONFIG = "config/config.yaml"
 
 
 def refuse(problem):
@@ -21,10 +26,9 @@ def refuse(problem):
 
 
 def read_study():
-    """The validated study; from its file if there is one alone, as the message then names it."""
-    if len(workflow.configfiles) == 1 and not workflow.config_settings.config:
-        return load_config(os.path.relpath(workflow.configfiles[0]))
-    return load_config(config)
+    """The validated study, of the files and words themselves: Snakemake reads them by YAML 1.1."""
+    files = [os.path.relpath(file) for file in workflow.configfiles or [DEFAULT_CONFIG]]
+    return load_merged(files, workflow.config_settings.config_args or ())
 
 
 try:
@@ -37,9 +41,8 @@ RESULTS = f"results/{STUDY.study.name}"
 LOGS = f"{RESULTS}/logs"
 BENCHMARKS = f"{RESULTS}/benchmarks"
 CELLS = STUDY.cells()
+PRESENTED = shown(StudyFiles(Path(RESULTS, "cube.nc")))
 RESULTS_LOCKS = []
-# Results of another release of the package count as outdated, like those of another task.
-VERSION = version("foilstudy")
 # The interpreter that runs Snakemake, whether or not its environment is activated. A rule writes
 # "{RUN} MODULE:FUNCTION words". Plain commands can be repeated by hand, and spare each job the
 # import of Snakemake by `script:`; job.py spares it that of everything else, where there is a
@@ -57,6 +60,10 @@ wildcard_constraints:
     thickness=r"t[0-9p]+um",
     overlength=r"h[0-9p]+mm",
     seed=r"[0-9]+",
+
+
+# Texts of a configuration reach a rule through functions of `params` alone: anywhere else,
+# Snakemake takes what stands in braces for a wildcard.
 
 
 def cell_paths(pattern):
@@ -90,6 +97,8 @@ def check_results():
     """See that the results can be written, without making anything: a dry-run comes here too."""
     folder = Path(RESULTS)
     while not folder.exists():
+        if folder.is_symlink():
+            refuse_results(f"{folder} is a link to {folder.readlink()}, which is not there")
         folder = folder.parent
     if not folder.is_dir():
         refuse_results(f"{folder} is not a folder")
@@ -112,7 +121,7 @@ def claim_results():
             refuse_results(problem.strerror, folder)
         try:
             fcntl.flock(RESULTS_LOCKS[-1], fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except (BlockingIOError, PermissionError):
+        except BlockingIOError:
             remedy = ", or give this one another study.name" if folder == RESULTS else ""
             refuse(f"{folder}: another run is writing this study; wait until it ends{remedy}.")
         except OSError as problem:

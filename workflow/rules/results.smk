@@ -20,7 +20,7 @@ rule cube:
     output:
         f"{RESULTS}/cube.nc",
     params:
-        study=STUDY.model_dump_json(),
+        study=lambda wildcards: STUDY.model_dump_json(),
     log:
         f"{LOGS}/cube.log",
     benchmark:
@@ -82,7 +82,6 @@ rule figure:
     params:
         title=lambda wildcards: FIGURES[wildcards.figure].title,
         caption=lambda wildcards: FIGURES[wildcards.figure].caption,
-        version=VERSION,
     log:
         f"{LOGS}/figures/{{figure}}.log",
     benchmark:
@@ -109,8 +108,10 @@ rule report:
             f"{RESULTS}/report.html",
             caption="../report/report.rst",
             category="Report",
-            labels={"page": STUDY.report.title},
+            # not its title, in which Snakemake would look for wildcards
+            labels={"page": STUDY.study.name},
         ),
+        f"{RESULTS}/{MANIFEST}",
     log:
         f"{LOGS}/report.log",
     benchmark:
@@ -120,4 +121,4 @@ rule report:
     message:
         "report"
     shell:
-        "{RUN} present.jobs:report {output} {input.crumples} > {log} 2>&1"
+        "{RUN} present.jobs:report {output[0]} {input.crumples} > {log} 2>&1"

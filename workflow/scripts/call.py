@@ -21,3 +21,7 @@ try:
     function(*(make(word) for make, word in zip(chain(makers, repeat(makers[-1])), words)))
 except Refusal as problem:
     sys.exit(str(problem))
+except OSError as problem:
+    if problem.filename is None:  # not a file's
+        raise
+    sys.exit(f"{problem.filename}: {problem.strerror}; check path, permissions and disk.")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 from collections.abc import Iterator
@@ -19,6 +20,11 @@ def written_whole(path: str | Path) -> Iterator[Path]:
     ----------
     path : str or Path
         Its folder is made if need be.
+
+    Raises
+    ------
+    OSError
+        Also where the NetCDF library says no more than that it could not write.
     """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -27,6 +33,11 @@ def written_whole(path: str | Path) -> Iterator[Path]:
     try:
         yield partial
         os.replace(partial, path)
+    except RuntimeError as error:
+        if not str(error).startswith("NetCDF: "):
+            raise
+        what = f"cannot be written ({error}), as on a full disk"
+        raise OSError(errno.EIO, what, str(path)) from error
     finally:
         partial.unlink(missing_ok=True)
 
@@ -34,12 +45,22 @@ def written_whole(path: str | Path) -> Iterator[Path]:
 def write_json(record: dict | list[dict], path: str | Path) -> None:
     """Write a record as JSON; arrays become lists, numbers that are not finite null."""
     with written_whole(path) as partial:
-        partial.write_text(json.dumps(_plain(record), indent=1, allow_nan=False) + "\n")
+        partial.write_text(json_text(record), encoding="utf-8")
+
+
+def json_text(record: dict | list[dict]) -> str:
+    """A record as JSON; arrays become lists, numbers that are not finite null."""
+    return json.dumps(_plain(record), indent=1, allow_nan=False) + "\n"
 
 
 def read_json(path: str | Path) -> dict | list[dict]:
     """What `write_json` has written; null is None for single numbers, NaN in lists."""
-    return json.loads(Path(path).read_text(), object_hook=_arrays)
+    return read_json_text(Path(path).read_text("utf-8"))
+
+
+def read_json_text(text: str) -> dict | list[dict]:
+    """What `json_text` has made."""
+    return json.loads(text, object_hook=_arrays)
 
 
 def _plain(value):

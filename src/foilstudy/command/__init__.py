@@ -7,6 +7,7 @@ help nor `--version` may wait for numba.
 
 from __future__ import annotations
 
+import io
 import sys
 from collections.abc import Sequence
 from importlib.metadata import version
@@ -25,12 +26,18 @@ __all__ = ["app", "main"]
 app = App(
     name="foilstudy",
     help="Statics and dynamics of crumpled foil cylinders: from one config file to a report.",
+    help_epilogue=(
+        "One foil in Python, axial and radial stiffness in N/m; lengths in m (diameter, height, "
+        "gap, thickness):\n\n"
+        "from foilstudy import Foil, crumple\n\n"
+        'print(crumple(Foil(0.2, 0.17, 0.13, 500e-6, "FEP")).stiffness())'
+    ),
     version=lambda: version("foilstudy"),
     result_action="return_value",
 )
 app.register_install_completion_command()
 for command in (check, run, export, report):
-    app.command(command)
+    app.command(command, help_epilogue="")  # else that of the whole
 
 
 def main(words: Sequence[str] | None = None) -> None:
@@ -48,10 +55,15 @@ def main(words: Sequence[str] | None = None) -> None:
     SystemExit
         With the sentences, or with the exit code.
     """
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        # a terminal that lacks a character of a name shows its number
+        sys.stdout.reconfigure(errors="backslashreplace")
     try:
         app(words)
     except Refusal as problem:
         sys.exit(str(problem))
+    except KeyboardInterrupt:
+        sys.exit("Stopped; the same command begins again.")
     except OSError as problem:
         if problem.filename is None:  # a fault of the machine, not of the words
             raise

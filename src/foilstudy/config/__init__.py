@@ -8,7 +8,7 @@ from foilstudy.base.errors import ConfigError
 
 from .export import Export
 from .isolation import Isolation
-from .load import load_config
+from .load import load_config, load_merged
 from .mesh import Mesh
 from .model import Cell, StudyConfig
 from .sections import (
@@ -46,4 +46,5 @@ __all__ = [
     "StudyConfig",
     "Sweep",
     "load_config",
+    "load_merged",
 ]

@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from difflib import get_close_matches
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel, ValidationError
-from pydantic.fields import FieldInfo
+from pydantic import ValidationError
 
 from foilstudy.base.errors import ConfigError
 
 from .model import StudyConfig
+from .sentences import MINIMAL, sentences
+from .sources import merged, named, read_file, read_word
 
-__all__ = ["load_config"]
+__all__ = ["load_config", "load_merged"]
 
-_MINIMAL = "a section sweep with thickness_um and reference_height_mm or overlength_percent"
+PROBLEMS_MAX = 10
+CHARACTERS_MAX = 1000
+"""Of all sentences but the last, without the names of the files before them."""
 
 
 def load_config(source: str | Path | Mapping[str, Any]) -> StudyConfig:
@@ -38,209 +40,56 @@ def load_config(source: str | Path | Mapping[str, Any]) -> StudyConfig:
         If the configuration cannot be run; one sentence per problem, with key path and remedy.
     """
     if isinstance(source, Mapping):
-        return _validate(source)
+        return _validated(source)
     if not isinstance(source, str | Path):
         raise ConfigError(
             f"A configuration cannot be read from a {type(source).__name__}; "
             "pass the path of a YAML file, or a mapping."
         )
+    return load_merged([source])
+
+
+def load_merged(files: Sequence[str | Path], words: Iterable[str] = ()) -> StudyConfig:
+    """Read and validate a configuration that is written in several places.
+
+    Parameters
+    ----------
+    files : sequence of str or pathlib.Path
+        YAML files; keys of a later one replace those of earlier ones.
+    words : iterable of str
+        Such as ``sweep={realisations: 2}``, over all files.
+
+    Raises
+    ------
+    ConfigError
+        As of `load_config`.
+    """
+    words = list(words)
+    contents = [*(read_file(Path(file)) for file in files), *map(read_word, words)]
     try:
-        return _validate(_read_file(Path(source)))
+        return _validated(merged(contents))
     except ConfigError as error:
-        raise ConfigError(*(f"{source}: {problem}" for problem in error.problems)) from None
+        places = [*map(str, files), *(["--config"] if words else [])]
+        raise named(", ".join(places), error) from None
 
 
-def _read_file(path: Path) -> Any:
-    from ._yaml import read_yaml  # jobs that only read a task need no YAML
-
-    try:
-        text = path.read_text(encoding="utf-8")
-    except FileNotFoundError:
-        raise ConfigError("there is no such file; check the path.") from None
-    except IsADirectoryError:
-        raise ConfigError("this is a folder; give the path of a YAML file in it.") from None
-    except UnicodeDecodeError:
-        raise ConfigError("this is not a text file; save it as UTF-8.") from None
-    except ValueError:
-        raise ConfigError("this is not a path; check it.") from None
-    except OSError as error:
-        raise ConfigError(
-            f"the file cannot be read ({error.strerror}); check its permissions."
-        ) from None
-    return read_yaml(text)
-
-
-def _validate(content: Any) -> StudyConfig:
-    if content is None or content == {}:
-        raise ConfigError(f"the configuration is empty; give at least {_MINIMAL}.")
-    if not isinstance(content, Mapping):
-        raise ConfigError(
-            f"the top level is {_describe(content)}, not a mapping of sections; start with "
-            "lines such as 'study:' and 'sweep:'."
-        )
+def _validated(content: Mapping[str, Any]) -> StudyConfig:
+    if not content:
+        raise ConfigError(f"the configuration is empty; give at least {MINIMAL}.")
     try:
         return StudyConfig.model_validate(dict(content))
     except ValidationError as error:
-        raise ConfigError(*dict.fromkeys(_sentences(error))) from None
+        raise ConfigError(*_first_of(error)) from None
 
 
-def _sentences(error: ValidationError) -> Iterator[str]:
-    details = error.errors(include_url=False)
-    located = [detail["loc"] for detail in details]
-    for detail in details:
-        loc = detail["loc"]
-        # Pydantic counts only the valid items; the invalid ones have their own sentence.
-        has_bad_item = any(len(other) > len(loc) and other[: len(loc)] == loc for other in located)
-        if detail["type"] == "too_short" and has_bad_item:
-            continue
-        if detail["type"] == "value_error":
-            yield from str(detail["ctx"]["error"]).split("\n")
-        else:
-            yield _sentence(detail["type"], loc, detail["input"], detail.get("ctx", {}))
-
-
-def _sentence(kind: str, loc: tuple[str | int, ...], value: Any, ctx: dict[str, Any]) -> str:
-    path = _path(loc)
-    if kind == "extra_forbidden":
-        return _unknown_key(loc)
-    if kind == "invalid_key":
-        return f"{value!r} is not a known key; keys are names such as 'sweep'."
-    field = _field(loc)
-    unit = _unit(field, loc)
-    if kind == "missing":
-        remedy = f"give at least {_MINIMAL}" if loc == ("sweep",) else f"add it ({_meaning(field)})"
-        return f"{path} is missing; {remedy}."
-    if kind == "model_type":
-        keys = ", ".join(_keys(loc))
-        if value is None:
-            return f"{path} has no keys; write some under it, indented: {keys}."
-        return f"{path} is {_describe(value)}, not a section; write keys under it: {keys}."
-    if kind == "tuple_type":
-        return f"{path} is {_describe(value)}, not a list; write [{_example(value, unit)}]."
-    if kind == "too_short":
-        return f"{path} is empty; give at least one value{_in(unit)}."
-    if kind == "finite_number":
-        return f"{path} is {value}, not a finite number; give a number{_in(unit)}."
-    if kind == "float_type":
-        return f"{path} is {_describe(value)}, not a number; {_number_remedy(value, unit)}."
-    if kind == "int_type":
-        whole = isinstance(value, float) and value.is_integer()
-        remedy = f"write {int(value)}" if whole else "give a whole number, without quotes"
-        return f"{path} is {_describe(value)}, not a whole number; {remedy}."
-    if kind in _BOUNDS:
-        phrase, key = _BOUNDS[kind]
-        return (
-            f"{path} is {value!r}, out of range; use a value {phrase} {ctx[key]:g}{_suffix(unit)}."
-        )
-    if kind == "literal_error":
-        return f"{path} is {_describe(value)}, which is no choice; use one of {ctx['expected']}."
-    if kind == "string_type":
-        return f"{path} is {_describe(value)}, not text; put it in quotes."
-    if kind in ("string_pattern_mismatch", "string_too_short", "string_too_long"):
-        return f"{path} is {_describe(value)}, which cannot be used; give: {_meaning(field)}."
-    return f"{path} is {_describe(value)}, which is invalid ({kind}); give: {_meaning(field)}."
-
-
-_BOUNDS = {
-    "greater_than": ("greater than", "gt"),
-    "greater_than_equal": ("of at least", "ge"),
-    "less_than": ("less than", "lt"),
-    "less_than_equal": ("of at most", "le"),
-}
-
-
-def _path(loc: tuple[str | int, ...]) -> str:
-    text = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in loc)
-    return text.removeprefix(".")
-
-
-def _sections() -> dict[str, type[BaseModel]]:
-    return {
-        name: field.annotation
-        for name, field in StudyConfig.model_fields.items()
-        if isinstance(field.annotation, type) and issubclass(field.annotation, BaseModel)
-    }
-
-
-def _keys(loc: tuple[str | int, ...]) -> list[str]:
-    model = _sections()[str(loc[0])] if loc else StudyConfig
-    return list(model.model_fields)
-
-
-def _unknown_key(loc: tuple[str | int, ...]) -> str:
-    *parents, key = loc
-    path, key = _path(loc), str(key)
-    siblings = _keys(tuple(parents))
-    close = get_close_matches(key, siblings, n=1) or [s for s in siblings if s.startswith(key)]
-    if close:
-        return f"{path} is not a known key; did you mean {_path((*parents, close[0]))}?"
-    everywhere = [f"{name}.{k}" for name, model in _sections().items() for k in model.model_fields]
-    elsewhere = [known for known in everywhere if known.endswith(f".{key}")]
-    if elsewhere:
-        return f"{path} is not a known key; it belongs to another section: {elsewhere[0]}."
-    close = get_close_matches(path, everywhere, n=1, cutoff=0)
-    where = f"{_path(tuple(parents))} has" if parents else "the top level has"
-    return (
-        f"{path} is not a known key; the closest one is {close[0]}, and {where} "
-        f"{', '.join(siblings)}."
-    )
-
-
-def _field(loc: tuple[str | int, ...]) -> FieldInfo | None:
-    model = _sections().get(str(loc[0]))
-    if len(loc) == 1 or model is None:
-        return StudyConfig.model_fields.get(str(loc[0]))
-    return model.model_fields.get(str(loc[1]))
-
-
-def _extra(field: FieldInfo | None) -> dict[str, Any]:
-    extra = field.json_schema_extra if field else None
-    return extra if isinstance(extra, dict) else {}
-
-
-def _unit(field: FieldInfo | None, loc: tuple[str | int, ...]) -> str:
-    unit = str(_extra(field).get("unit", "")).removeprefix("list of ")
-    return "" if unit in ("1", "id", "text", "choice") else unit
-
-
-def _in(unit: str) -> str:
-    return f" in {unit}" if unit else ""
-
-
-def _suffix(unit: str) -> str:
-    return f" {unit}" if unit else ""
-
-
-def _meaning(field: FieldInfo | None) -> str:
-    return (field.description or "").rstrip(".") if field else "a valid value"
-
-
-def _number_remedy(value: Any, unit: str) -> str:
-    if isinstance(value, str):
-        try:
-            number = float(value)
-        except ValueError:
-            return f"write the number alone{_in(unit)}, without its unit"
-        # A reader of YAML 1.1 takes 1e-6 for text, but not 1.0e-06.
-        return f"write it as {number:.1e}" if "e" in value.lower() else "write it without quotes"
-    return f"give a number{_in(unit)}"
-
-
-def _example(value: Any, unit: str) -> str:
-    """What a list might hold; of numbers, unless it is one of choices."""
-    if isinstance(value, int | float | str):
-        return f"{value}"
-    return "" if "choice" in unit else "50, 130"
-
-
-def _describe(value: Any) -> str:
-    if value is None:
-        return "empty"
-    if isinstance(value, bool):
-        return f"the truth value {str(value).lower()}"
-    if isinstance(value, Mapping):
-        return "a mapping"
-    if isinstance(value, list | tuple):
-        return "a list"
-    text = repr(value)
-    return f"the text {text[:60]}" if isinstance(value, str) else text[:60]
+def _first_of(error: ValidationError) -> Iterator[str]:
+    """As many of the sentences as a reader can take in."""
+    makers, seen = sentences(error), dict[str, None]()
+    for done, maker in enumerate(makers):
+        if len(seen) == PROBLEMS_MAX or sum(map(len, seen)) > CHARACTERS_MAX:
+            left = len(makers) - done
+            yield from seen
+            yield f"There are {left} more problems; correct these first, then try again."
+            return
+        seen[maker()] = None
+    yield from seen

@@ -14,6 +14,7 @@ from .export import Export
 from .isolation import Isolation
 from .mesh import Mesh, MeshUse, mesh_problems
 from .sections import (
+    HEIGHT_MAX_MM,
     Dynamics,
     Imperfection,
     Material,
@@ -32,6 +33,8 @@ __all__ = ["Cell", "StudyConfig", "overlength_id", "thickness_id"]
 
 # Beyond this ratio transverse shear matters and Kirchhoff-Love theory ends.
 THICKNESS_TO_RADIUS_MAX = 1 / 20
+# Of all thicknesses and heights; Snakemake cannot plan more in reasonable time.
+REALISATIONS_MAX = 100_000
 
 
 def _plain(value: float) -> str:
@@ -110,9 +113,18 @@ class StudyConfig(Section):
     export: Export = Field(default_factory=Export, description="Files for other tools.")
     report: Report = Field(default_factory=Report, description="Report page.")
 
+    def __repr__(self) -> str:
+        counts = len(self.thicknesses_um), len(self.reference_heights_mm), self.sweep.realisations
+        return "<StudyConfig: {}, {} thicknesses x {} heights x {} realisations>".format(
+            self.study.name, *counts
+        )
+
+    __str__ = __repr__
+
     @model_validator(mode="after")
     def _check_across_sections(self) -> StudyConfig:
         problems = list(self._height_problems()) or list(mesh_problems(self.mesh, self._mesh_use()))
+        problems += self._size_problems()
         problems += self._thickness_problems()
         problems += _duplicates("sweep.thickness_um", self.sweep.thickness_um, thickness_id)
         if self.sweep.reference_height_mm is not None:
@@ -138,6 +150,23 @@ class StudyConfig(Section):
                     f"sheet.gap_height_mm ({gap:g} mm), so nothing would crumple; use a height "
                     "above the gap."
                 )
+        for i, percent in enumerate(self.sweep.overlength_percent or ()):
+            height = self._reference_height_mm(percent)
+            if height > HEIGHT_MAX_MM:
+                yield (
+                    f"sweep.overlength_percent[{i}] is {percent:g} %, which makes a height of "
+                    f"{height:g} mm over sheet.gap_height_mm ({gap:g} mm), out of range; keep it "
+                    f"to {HEIGHT_MAX_MM:g} mm, and check that the gap is in mm."
+                )
+
+    def _size_problems(self) -> Iterator[str]:
+        number = len(self.thicknesses_um) * len(self.reference_heights_mm) * len(self.seeds)
+        if number > REALISATIONS_MAX:
+            yield (
+                f"sweep.realisations is {self.sweep.realisations}, which makes {number} "
+                f"realisations of all thicknesses and heights (at most {REALISATIONS_MAX}); use "
+                "fewer, or shorter lists."
+            )
 
     def _mesh_use(self) -> MeshUse:
         return MeshUse(
@@ -150,7 +179,8 @@ class StudyConfig(Section):
 
     def mesh_of(self, thickness_um: float) -> Mesh:
         """Mesh of a thickness; with ``auto`` its element size is that of the stated error."""
-        return self.mesh.resolved(self.sheet.diameter_mm / 2, thickness_um)
+        shortest = self.reference_heights_mm[0]
+        return self.mesh.resolved(self.sheet.diameter_mm, shortest, thickness_um)
 
     def _thickness_problems(self) -> Iterator[str]:
         limit = 1e3 * self.sheet.diameter_mm / 2 * THICKNESS_TO_RADIUS_MAX

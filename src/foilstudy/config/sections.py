@@ -8,12 +8,11 @@ of the message looks at a YAML file, not at this code.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from difflib import get_close_matches
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-from foilstudy.base.registry import Registry
+from foilstudy.base.registry import Registry, did_you_mean
 from foilstudy.measure.choices import (
     MODAL_REDUCTIONS,
     REDUCTIONS,
@@ -26,6 +25,9 @@ from foilstudy.model.shell.material import LAWS
 from foilstudy.solve.choices import DAMPINGS, MASSES, PATHS, SEARCHES
 
 CORRELATION_LENGTH_DEFAULT_MM = 15.0
+TEXT_MAX = 200
+# Any characters of any language, and several lines, but none that no file or terminal can show.
+TEXT = {"min_length": 1, "max_length": TEXT_MAX, "pattern": r"^[^\x00-\x08\x0B-\x1F\x7F]*$"}
 CONSTANTS = ("youngs_modulus_mpa", "poisson_ratio", "density_kg_m3", "yield_stress_mpa")
 
 
@@ -91,16 +93,16 @@ class Material(Section):
     model_config = ConfigDict(json_schema_extra=_material_schema)
 
     name: str = unit_field(
-        "text", "Name of a known material (see below), or any other name.", "FEP", min_length=1
+        "text", "Name of a known material (see below), or any other name.", "FEP", **TEXT
     )
     law: choice_of(LAWS) = registry_field(LAWS, "elastic")
-    youngs_modulus_mpa: float = unit_field("MPa", "Young's modulus.", gt=0, le=2e6)
+    youngs_modulus_mpa: float = unit_field("MPa", "Young's modulus.", ge=1e-3, le=2e6)
     poisson_ratio: float = unit_field("1", "Poisson's ratio.", gt=-1, le=0.5)
-    density_kg_m3: float = unit_field("kg/m3", "Density.", gt=0, le=30_000)
+    density_kg_m3: float = unit_field("kg/m3", "Density.", ge=0.1, le=30_000)
     yield_stress_mpa: float = unit_field(
         "MPa",
         "Uniaxial yield stress; only for the reported share of the surface beyond yield.",
-        gt=0,
+        ge=1e-6,
         le=1e5,
     )
 
@@ -110,28 +112,29 @@ class Material(Section):
         if not isinstance(data, Mapping):
             return data
         name = data.get("name", cls.model_fields["name"].default)
-        # A name that is no text has its own error; missing constants would only hide it.
-        known = MATERIALS.get(name) if isinstance(name, str) and name else MATERIALS["FEP"]
+        # A name that is none has its own error; missing constants would only hide it.
+        is_name = isinstance(name, str) and 0 < len(name) <= TEXT_MAX
+        known = MATERIALS.get(name) if is_name else MATERIALS["FEP"]
         if known is not None:
             return {key: getattr(known, key) for key in CONSTANTS} | dict(data)
         missing = [f"material.{key}" for key in CONSTANTS if key not in data]
         if missing:
-            folded = {key.casefold(): key for key in MATERIALS}
-            close = get_close_matches(name.casefold(), folded, n=1)
-            hint = f"did you mean {folded[close[0]]}? " if close else ""
             raise ValueError(
                 f"material.name is {name!r}, which is not a known material, and "
-                f"{', '.join(missing)} {'is' if len(missing) == 1 else 'are'} missing; {hint}"
+                f"{', '.join(missing)} {'is' if len(missing) == 1 else 'are'} missing; "
+                f"{did_you_mean(name, MATERIALS)}"
                 f"use one of {', '.join(MATERIALS)}, or give all four constants."
             )
         return data
 
 
 Thickness = Annotated[float, Field(ge=0.1, le=10_000)]
-Height = Annotated[float, Field(gt=0, le=10_000)]
+HEIGHT_MAX_MM = 10_000
+Height = Annotated[float, Field(gt=0, le=HEIGHT_MAX_MM)]
+Frequency = Annotated[float, Field(gt=0, le=1e6)]
 Overlength = Annotated[float, Field(ge=0.01, le=1_000)]
 # Lax only in the container: YAML and JSON know lists, the frozen model holds tuples.
-_LIST = {"strict": False, "min_length": 1}
+_LIST = {"strict": False, "min_length": 1, "max_length": 1000}
 
 
 class Sweep(Section):
@@ -307,7 +310,7 @@ class Dynamics(Section):
     )
     damping: choice_of(STRUCTURAL_DAMPINGS) = registry_field(STRUCTURAL_DAMPINGS, "modal")
     damping_percent: float = unit_field("%", "Share of the critical damping.", 5.0, gt=0, lt=100)
-    rayleigh_hz: tuple[float, float] | None = unit_field(
+    rayleigh_hz: tuple[Frequency, Frequency] | None = unit_field(
         "list of Hz", "Two frequencies, rising, only for `rayleigh` damping.", None, strict=False
     )
     eigenfrequencies: int = unit_field(
@@ -349,7 +352,7 @@ class Dynamics(Section):
                 "dynamics.rayleigh_hz goes with dynamics.damping: rayleigh, e.g. [20, 800]; "
                 f"{'give' if wanted else 'remove'} it."
             ]
-        if given and not 0 < self.rayleigh_hz[0] < self.rayleigh_hz[1]:
+        if given and self.rayleigh_hz[0] >= self.rayleigh_hz[1]:
             return [
                 f"dynamics.rayleigh_hz is {list(self.rayleigh_hz)} Hz; give two positive, rising "
                 "frequencies."
@@ -360,6 +363,4 @@ class Dynamics(Section):
 class Report(Section):
     """The report page."""
 
-    title: str = unit_field(
-        "text", "Title of the report.", "Stiffness of crumpled foil", min_length=1, max_length=200
-    )
+    title: str = unit_field("text", "Title of the report.", "Stiffness of crumpled foil", **TEXT)

@@ -21,6 +21,9 @@ _CBWR_AUTO = 2
 """Conditional numerical reproducibility: the fastest code of this machine, the same in every run.
 Named instruction sets are refused on other processors than Intel's."""
 
+_LAYER_LP64, _LAYER_INTEL = 0, 0
+"""Integers of 32 bits, as the arrays below have; the threads that the `mkl` package brings."""
+
 
 @lru_cache(maxsize=1)
 def _library():
@@ -35,6 +38,9 @@ def _library():
                 library = ctypes.CDLL(str(file.locate()))
             except OSError:
                 return None
+            # before anything the user's shell asks for: a layer not installed ends the process
+            library.MKL_Set_Interface_Layer(ctypes.c_int(_LAYER_LP64))
+            library.MKL_Set_Threading_Layer(ctypes.c_int(_LAYER_INTEL))
             library.MKL_CBWR_Set(ctypes.c_int(_CBWR_AUTO))
             library.MKL_Set_Num_Threads(ctypes.c_int(1))
             library.pardiso.restype = None

@@ -45,6 +45,12 @@ class ReducedModel:
     error_estimate: float = np.nan
     valid_to_hz: float = np.nan
 
+    def __repr__(self) -> str:
+        return (
+            f"<ReducedModel: {self.method}, {self.size} coordinates, valid to "
+            f"{self.valid_to_hz:g} Hz, estimated error {self.error_estimate:.1e}>"
+        )
+
     @property
     def size(self) -> int:
         """Number of coordinates."""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from foilstudy.base.errors import Refusal
+from foilstudy.base.ranges import require_count
 from foilstudy.measure.dynamics.damping import Damping
 from foilstudy.measure.dynamics.reduction import ReducedModel
 from foilstudy.measure.dynamics.structure import INTERFACE
@@ -22,16 +24,24 @@ statically: below it half of the digits of a receptance are those of rigid motio
 
 
 def frequency_grid(lowest: float, highest: float, count: int) -> np.ndarray:
-    """Logarithmic grid with exact ends, Hz, of two frequencies or more."""
+    """Logarithmic grid with exact ends, Hz, of two frequencies or more.
+
+    Raises
+    ------
+    Refusal
+        If the ends are not positive and rising.
+    """
+    require_band(lowest, highest)
+    require_count("number of frequencies", count, 2)
     grid = np.geomspace(lowest, highest, count)
     grid[[0, -1]] = lowest, highest
     return grid
 
 
-def interface_dynamic_stiffness(
+def interface_receptance(
     model: ReducedModel, frequencies: np.ndarray, damping: Damping
 ) -> np.ndarray:
-    """D(omega) on the twelve ring motions, the inverse of the interface receptance.
+    """H(omega) of the twelve ring motions, both rings free.
 
     H(omega) = sum_j phi_j phi_j^T / (omega_j^2 - omega^2 + d_j) over all free modes of the reduced
     model, with the damping term d_j; rigid modes have omega_j = 0 exactly.
@@ -40,7 +50,7 @@ def interface_dynamic_stiffness(
     ----------
     model : ReducedModel
     frequencies : ndarray
-        Hz, positive, up to where the model is valid.
+        Hz, positive and rising, up to where the model is valid.
     damping : Damping
 
     Returns
@@ -50,19 +60,19 @@ def interface_dynamic_stiffness(
     Raises
     ------
     ValueError
-        If a frequency is not positive or beyond the validity of the model.
+        If the frequencies are not positive and rising, or go beyond the validity of the model.
     """
-    frequencies = checked(frequencies)
-    if frequencies.max() > model.valid_to_hz * (1 + 1e-12):
-        raise ValueError(
-            f"{frequencies.max():g} Hz is beyond {model.valid_to_hz:g} Hz, up to where this "
-            f"{model.method} model is valid; reduce the structure again for a wider band."
-        )
-    values, shapes = model.free_modes()
-    interface = shapes[:INTERFACE]
-    omega = 2 * np.pi * frequencies[:, None]
-    denominator = values - omega**2 + damping.modal(values, omega)
-    slow = omega[:, 0] ** 2 < _SLOW * model.fastest_ring_motion()
+    frequencies, values, interface = _modes(model, frequencies)
+    return _receptance(interface, _denominator(frequencies, values, damping))
+
+
+def interface_dynamic_stiffness(
+    model: ReducedModel, frequencies: np.ndarray, damping: Damping
+) -> np.ndarray:
+    """D(omega) on the twelve ring motions, the inverse of `interface_receptance`."""
+    frequencies, values, interface = _modes(model, frequencies)
+    denominator = _denominator(frequencies, values, damping)
+    slow = (2 * np.pi * frequencies) ** 2 < _SLOW * model.fastest_ring_motion()
     if not slow.any():
         return np.linalg.inv(_receptance(interface, denominator))
     out = np.empty((frequencies.size, INTERFACE, INTERFACE), dtype=complex)
@@ -72,6 +82,26 @@ def interface_dynamic_stiffness(
     elastic = _receptance(interface[:, ~rigid], denominator[slow][:, ~rigid])
     out[slow] = _slow_stiffness(elastic, interface[:, rigid], denominator[slow][:, rigid])
     return out
+
+
+def _modes(
+    model: ReducedModel, frequencies: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Checked frequencies, omega_j^2, and the free modes on the ring motions."""
+    frequencies = checked(frequencies)
+    if frequencies.max() > model.valid_to_hz * (1 + 1e-12):
+        raise ValueError(
+            f"{frequencies.max():g} Hz is beyond {model.valid_to_hz:g} Hz, up to where this "
+            f"{model.method} model is valid; reduce the structure again for a wider band."
+        )
+    values, shapes = model.free_modes()
+    return frequencies, values, shapes[:INTERFACE]
+
+
+def _denominator(frequencies: np.ndarray, values: np.ndarray, damping: Damping) -> np.ndarray:
+    """omega_j^2 - omega^2 + d_j, shape (frequencies, modes)."""
+    omega = 2 * np.pi * frequencies[:, None]
+    return values - omega**2 + damping.modal(values, omega)
 
 
 def _receptance(interface: np.ndarray, denominator: np.ndarray) -> np.ndarray:
@@ -114,12 +144,34 @@ def checked(frequencies: np.ndarray) -> np.ndarray:
     Raises
     ------
     ValueError
-        If there is none, or one that is not a positive number.
+        If there is none, one that is not a positive number, or one that is not above the one
+        before.
     """
     frequencies = np.atleast_1d(np.asarray(frequencies, dtype=float))
-    if frequencies.ndim != 1 or not frequencies.size or not (frequencies > 0).all():
-        raise ValueError("give one or several positive frequencies in Hz.")
+    good = frequencies.ndim == 1 and frequencies.size > 0
+    if not good or not (np.isfinite(frequencies) & (frequencies > 0)).all():
+        raise Refusal("give one or several positive frequencies in Hz.")
+    if (np.diff(frequencies) <= 0).any():
+        at = int(np.argmax(np.diff(frequencies) <= 0))
+        raise Refusal(
+            f"frequencies are to rise, but {frequencies[at + 1]:g} Hz follows "
+            f"{frequencies[at]:g} Hz; sort them and leave repeated ones out."
+        )
     return frequencies
+
+
+def require_band(lowest_hz: float, highest_hz: float) -> None:
+    """Refuse two frequencies that are no band.
+
+    Raises
+    ------
+    Refusal
+    """
+    if not 0 < lowest_hz < highest_hz < np.inf:
+        raise Refusal(
+            f"a band from {lowest_hz:g} to {highest_hz:g} Hz is none; give two positive, rising "
+            "frequencies."
+        )
 
 
 def directional_stiffness(interface_stiffness: np.ndarray) -> np.ndarray:

@@ -42,6 +42,10 @@ class Structure:
     static: StaticCondensation
     rigid_motions: np.ndarray
 
+    def __repr__(self) -> str:
+        size = self.stiffness.interior.shape[0] + INTERFACE
+        return f"<Structure: {size} unknowns, {self.rigid_modes} rigid motions>"
+
     @classmethod
     def assembled(
         cls, stiffness: InterfaceSystem, mass: InterfaceSystem, rigid_motions: np.ndarray

@@ -19,6 +19,9 @@ class InterfaceSystem:
     coupling: np.ndarray
     interface: np.ndarray
 
+    def __repr__(self) -> str:
+        return f"<InterfaceSystem: {self.interior.shape[0]} interior unknowns>"
+
     @classmethod
     def split(cls, matrix: sparse.csr_matrix, rings: Rings) -> InterfaceSystem:
         """Split a matrix on all control points by the rings."""
@@ -48,6 +51,9 @@ class StaticCondensation:
     stiffness: np.ndarray
     constraint_modes: np.ndarray
     factor: Factorisation
+
+    def __repr__(self) -> str:
+        return f"<StaticCondensation: {len(self.constraint_modes)} interior unknowns>"
 
 
 def condense(system: InterfaceSystem) -> StaticCondensation:

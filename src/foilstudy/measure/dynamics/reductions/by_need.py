@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from foilstudy.base.ranges import require_number
 from foilstudy.linalg import MODES_MAX, SolveError, TooManyModes
 from foilstudy.measure.dynamics.accuracy import Wanted
 from foilstudy.measure.dynamics.reduction import ReducedModel, Reduction
@@ -52,6 +53,9 @@ class Modal:
     cutoff_hz: float
     wanted: Wanted | None = None
     modes_max: int = MODES_MAX
+
+    def __post_init__(self):
+        require_number("cut-off of a reduction", self.cutoff_hz, "Hz", above=0)
 
     @classmethod
     def for_band(cls, wanted: Wanted, cutoff_hz: float | None = None) -> Reduction:
