@@ -224,3 +224,18 @@ def test_a_realisation_that_did_not_converge_is_left_out_of_means(synthetic_stud
     key = ("strain_energy", case.thickness_um)
     assert len(read_ensemble({"crumples": records}, *key)[case.size_mm]) == 2
     assert len(read_ensemble(synthetic_study, *key)[case.size_mm]) == 3
+
+
+def test_what_diverged_is_told_and_measured_no_further(synthetic_study, monkeypatch):
+    diverged = {"status": "diverged", "message": "unstable", "cpu_seconds_relaxing": 1.0}
+    crumples, levels = dict(synthetic_study["crumples"]), dict(synthetic_study["levels"])
+    (tall,) = [case for case in crumples if case.height_mm == plan.TALL_HEIGHT_MM]
+    crumples[tall] = dict(diverged)
+    first = next(iter(levels))
+    levels[first] = [*levels[first][:1], diverged | {"level": 1}]
+    study = {**synthetic_study, "crumples": crumples, "levels": levels}
+    assert "\n\ndiverged: unstable.\n" in tables.page(study)
+    assert any(row["status"] == "diverged" for row in tables.crumples(study))
+    monkeypatch.setattr(crumpling, "settled", lambda case: (None, dict(diverged)))
+    assert crumpling.run(COARSE) == diverged
+    assert crumpling.run_levels(COARSE) == [{"level": 0} | diverged]

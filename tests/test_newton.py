@@ -217,6 +217,18 @@ def test_start_that_is_not_finite_is_refused():
         minimise(Column(5, load=1.0), np.full(5, np.nan))
 
 
+def test_a_saddle_is_left_to_others_on_request():
+    """The straight column under twice its buckling load: one step down, no search from there."""
+    column, start = Column(30, load=0.5 * np.pi**2), np.zeros(30)
+    start[-1] = 1e-3
+    options = NewtonOptions(stop_at_saddle=True)
+    result = minimise(column, start, options)
+    assert (result.status, result.iterations, result.steps) == ("saddle", 1, 0)
+    assert column.value_and_gradient(result.q)[0] < column.value_and_gradient(start)[0]
+    bowl = minimise(column, minimise(column, start).q + 1e-3, options)
+    assert bowl.status == "converged" and bowl.negative_eigenvalues == 0
+
+
 class Pit(Quadratic):
     """A bowl that is no number beyond a radius: in its gradient, or in its Hessian alone."""
 

@@ -209,25 +209,40 @@ def test_an_automatic_cutoff_seeks_no_more_modes_than_stated(shape, monkeypatch)
     assert len(sought) <= 18
 
 
-def test_a_cell_without_any_valid_frequency_says_so(tmp_path):
-    study = load_config(
+def small_study(**dynamics):
+    return load_config(
         {
             "sweep": {"thickness_um": [500], "reference_height_mm": [170], "realisations": 1},
             "mesh": {"element_size_mm": 20},
             "relaxation": {"ramp_steps": 300},
             "stiffness": {"refinements": 0},
-            "dynamics": {
-                "reduction": "guyan",
-                "shown_min_hz": 300,
-                "shown_max_hz": 400,
-                "frequencies": 4,
-            },
+            "dynamics": dynamics,
         }
     )
+
+
+def test_a_cell_without_any_valid_frequency_says_so(tmp_path):
+    study = small_study(reduction="guyan", shown_min_hz=300, shown_max_hz=400, frequencies=4)
     (cell,) = study.cells()
     crumple_job(study.crumple_task(cell), tmp_path / "crumple.nc")
     respond_job(study.response_task(cell), tmp_path / "crumple.nc", tmp_path / "response.nc")
     values, attributes = read_record(tmp_path / "response.nc")
     assert "dynamic stiffness at no frequency of the shown band" in attributes["message"]
     assert np.isnan(values["dynamic_stiffness_re"]).all() and values["valid_to_frequency"] == 0
+    assert (values["static_stiffness"] > 0).all()
+
+
+def test_a_singular_tangent_costs_no_other_number(tmp_path, monkeypatch):
+    def singular(*_):
+        raise SolveError("the matrix is singular")
+
+    monkeypatch.setattr("foilstudy.pipeline.crumpled.prestressed_stiffness", singular)
+    study = small_study(shown_max_hz=100, frequencies=3)
+    (cell,) = study.cells()
+    crumple_job(study.crumple_task(cell), tmp_path / "crumple.nc")
+    respond_job(study.response_task(cell), tmp_path / "crumple.nc", tmp_path / "response.nc")
+    values, attributes = read_record(tmp_path / "response.nc")
+    assert attributes["status"] == "converged"
+    assert "no pre-stressed stiffness" in attributes["message"]
+    assert np.isnan(values["prestressed_stiffness"]).all()
     assert (values["static_stiffness"] > 0).all()

@@ -1,5 +1,6 @@
 """Crumpled shapes from elsewhere: what they become, and what is refused."""
 
+import zipfile
 from dataclasses import replace
 
 import meshio
@@ -256,6 +257,53 @@ def test_elements_must_divide_the_grid():
         sheet(SurfaceGrid(dented(27, 63), 2))
 
 
+@pytest.mark.parametrize("turns", [1, 7, 12])
+def test_the_first_column_may_be_anywhere_on_an_element(own, turns):
+    grid = surface_grid(own.points)
+    expected = static(sheet(SurfaceGrid(grid, 2)))
+    turned = sheet(SurfaceGrid(np.roll(grid, turns, axis=1), 2))
+    np.testing.assert_allclose(static(turned), expected, rtol=1e-6)
+
+
+def test_rows_that_begin_within_an_element_are_noticed(own):
+    grid = surface_grid(own.points)
+    with pytest.raises(ValueError, match="first row lies in the middle of an element"):
+        sheet(SurfaceGrid(grid[1:-1], 2))
+    sheet(SurfaceGrid(dented(53, 126), 2))  # points of no spline know no element
+
+
+def test_masked_points_are_refused():
+    points = np.ma.masked_array(dented(27, 63))
+    points[4, 5] = np.ma.masked
+    with pytest.raises(ValueError, match="3 numbers of the grid are masked; fill the gaps"):
+        sheet(points)
+    assert sheet(np.ma.masked_array(dented(27, 63))).patch.elements_around == 63
+
+
+@pytest.mark.parametrize(
+    ("unit", "words"),
+    [(1e3, "times 0.001 if they are in millimetres"), (1e3 / 25.4, "times 0.0254 if .* in inches")],
+)
+def test_a_unit_that_would_do_is_suggested(unit, words):
+    with pytest.raises(ValueError, match=f"give the points in metres: .*{words}"):
+        sheet(10 * unit * dented(27, 63))
+
+
+@pytest.mark.parametrize(
+    ("points", "option"), [(folded_back(), "folded_share"), (crossing(), "crossing_share")]
+)
+def test_a_shape_with_faults_is_analysed_on_request_and_says_so(points, option):
+    with pytest.raises(ValueError, match=rf"limits=Limits\({option}=") as refusal:
+        sheet(points)
+    share = float(str(refusal.value).split(f"{option}=")[1].split(")")[0])
+    wide = {"folded_share": 1.0, "crossing_share": 1.0} | {option: share}
+    crumple = sheet(points, limits=Limits(**wide))
+    assert 0 < getattr(crumple.faults, option) <= share
+    assert "% of the" in crumple.message
+    assert np.isfinite(static(crumple)).all()
+    assert sheet(dented(27, 63)).message == ""
+
+
 # --- files ---------------------------------------------------------------------------------------
 
 
@@ -264,6 +312,37 @@ def test_numpy_archive_is_read(tmp_path):
     np.savez(tmp_path / "scan.npz", points=points)
     np.testing.assert_array_equal(read_grid(tmp_path / "scan.npz").points, points)
     assert sheet(tmp_path / "scan.npz").patch.elements_along == 26
+
+
+def test_endings_may_be_upper_case(tmp_path):
+    points = dented(27, 64)
+    np.savez(tmp_path / "scan.npz", points=points)
+    (tmp_path / "scan.npz").rename(tmp_path / "SCAN.NPZ")
+    np.testing.assert_array_equal(read_grid(tmp_path / "SCAN.NPZ").points, points)
+    vtk_file(tmp_path / "solver.vtu", points).rename(tmp_path / "SOLVER.VTU")
+    np.testing.assert_array_equal(read_grid(tmp_path / "SOLVER.VTU", 64).points, points)
+
+
+def test_a_file_that_declares_too_much_is_refused_before_room_is_made(tmp_path):
+    path = tmp_path / "bomb.npz"
+    with zipfile.ZipFile(path, "w") as archive, archive.open("points.npy", "w") as file:
+        shape = {"descr": "<f8", "fortran_order": False, "shape": (1_000_000, 1_000_000, 3)}
+        np.lib.format.write_array_header_1_0(file, shape)
+    with pytest.raises(ValueError, match="bomb.npz: says that it has 1000000000000 points"):
+        read_grid(path)
+    path = vtk_file(tmp_path / "bomb.vtu", dented(27, 64))
+    text = path.read_bytes().replace(b'NumberOfPoints="1728"', b'NumberOfPoints="99999999999"')
+    path.write_bytes(text)
+    with pytest.raises(ValueError, match="bomb.vtu: says that it has 99999999999 points"):
+        read_grid(path)
+
+
+def test_lz4_is_named(tmp_path):
+    path = vtk_file(tmp_path / "lz4.vtu", dented(27, 64))
+    path.write_bytes(path.read_bytes().replace(b"vtkZLibDataCompressor", b"vtkLZ4DataCompressor"))
+    assert b"LZ4" in path.read_bytes()
+    with pytest.raises(ValueError, match="lz4.vtu: is compressed by LZ4.*save it with ZLib"):
+        read_grid(path)
 
 
 def vtk_file(path, points, **point_data):

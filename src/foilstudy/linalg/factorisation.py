@@ -35,9 +35,10 @@ def backend() -> str:
     return "pardiso" if pardiso.available() else "superlu"
 
 
-_SINGULAR = 1e12
+_SINGULAR = 1e13
 """|A| |x| for a right-hand side of size 1, both scaled to a unit diagonal, above which a matrix
-counts as singular. Sheets between rings give up to 1e4, sheets without rings 1e15."""
+counts as singular; times 1e-16 it is the error of a solution. Sheets between rings give about the
+square of element size over thickness, 1e4 in the published case; sheets without rings 9e13."""
 
 
 def factorise(matrix: sparse.csr_matrix, residual_tolerance: float = 1e-8) -> Factorisation:

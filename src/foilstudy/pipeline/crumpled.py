@@ -42,6 +42,28 @@ class Recipe:
     method: Method
 
 
+@dataclass(frozen=True)
+class SurfaceFaults:
+    """What of a shape from elsewhere no real foil does.
+
+    Attributes
+    ----------
+    folded_share : float
+        Of the cells of its grid: turned over, or folded back onto a neighbour.
+    crossing_share : float
+        Of its area: crosses the rest.
+    """
+
+    folded_share: float
+    crossing_share: float
+
+    def __str__(self) -> str:
+        return (
+            f"{100 * self.folded_share:.2g} % of the cells are folded back, and "
+            f"{100 * self.crossing_share:.2g} % of the area crosses the rest"
+        )
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Crumpled(Shape):
     """A crumpled foil: a `Shape` that knows how it came about.
@@ -52,10 +74,13 @@ class Crumpled(Shape):
         None for a shape from elsewhere.
     arrival : Arrival or None
         How the equilibrium was reached; None where it was not sought here.
+    faults : SurfaceFaults or None
+        Of a shape from elsewhere.
     """
 
     recipe: Recipe | None = None
     arrival: Arrival | None = None
+    faults: SurfaceFaults | None = None
 
     def __repr__(self) -> str:
         how = f", {self.arrival.status}" if self.arrival else ""
@@ -68,8 +93,11 @@ class Crumpled(Shape):
 
     @property
     def message(self) -> str:
-        """One sentence on the status."""
-        return self.arrival.message if self.arrival else ""
+        """One sentence on the status; on the faults of a shape from elsewhere, if it has any."""
+        if self.arrival:
+            return self.arrival.message
+        faults = self.faults
+        return str(faults) if faults and (faults.folded_share or faults.crossing_share) else ""
 
     @property
     def method(self) -> Method:

@@ -68,8 +68,8 @@ def condense(system: InterfaceSystem) -> StaticCondensation:
         factor = factorise(system.interior)
     except SolveError as error:
         raise SolveError(
-            f"the stiffness with held rings is singular to working precision ({error}); is the "
-            "foil too thin for its mesh, use a finer mesh or a thicker foil"
+            "the stiffness with held rings is singular to working precision, as that of a foil too "
+            f"thin for its mesh; use a finer mesh or a thicker foil ({error})"
         ) from error
     modes = -factor.solve(system.coupling)
     stiffness = system.interface + system.coupling.T @ modes

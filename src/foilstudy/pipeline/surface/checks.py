@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from foilstudy.model.shell.intersection import self_crossing_share
+from foilstudy.pipeline.crumpled import SurfaceFaults
 from foilstudy.pipeline.surface.grid import SurfaceGrid
 from foilstudy.pipeline.surface.rings import Circle, fitted_circle
 
@@ -32,6 +33,10 @@ class Limits:
         Gap between the last and the first column over the median step around.
     fold_degrees : float
         Angle between the normals of two neighbouring cells.
+    folded_share, crossing_share : float
+        Shares of the surface, of its cells and of its area, that may be turned over or folded back
+        and that may cross the rest; shapes of codes without contact do so a little. What there is
+        stands in `Crumpled.faults`.
     """
 
     ring: float = 0.01
@@ -39,9 +44,15 @@ class Limits:
     length: float = 0.1
     seam: float = 2.0
     fold_degrees: float = 175.0
+    folded_share: float = 0.0
+    crossing_share: float = 0.0
 
 
 DEFAULT_LIMITS = Limits()
+_PHASE = 0.1
+"""Fourth differences at points over those between them below which the elements begin there."""
+_SMOOTH = 1e-9
+"""Fourth differences over the size of the shape that are more than rounding."""
 
 
 def closed_grid(grid: SurfaceGrid, limits: Limits) -> SurfaceGrid:
@@ -52,6 +63,11 @@ def closed_grid(grid: SurfaceGrid, limits: Limits) -> SurfaceGrid:
     ValueError
         If the shape or the numbers are wrong, or if the seam is open.
     """
+    if np.ma.is_masked(grid.points):
+        raise ValueError(
+            f"{np.ma.count_masked(grid.points)} numbers of the grid are masked; fill the gaps by "
+            "interpolation."
+        )
     points = np.asarray(grid.points)
     if points.ndim != 3 or points.shape[2] != 3 or not np.issubdtype(points.dtype, np.number):
         raise ValueError(
@@ -82,6 +98,8 @@ def closed_grid(grid: SurfaceGrid, limits: Limits) -> SurfaceGrid:
             "(if they go from ring to ring, transpose the grid)."
         )
     _check_division(points, grid.points_per_element)
+    if grid.points_per_element == 2:
+        _check_first_knot(points)
     return SurfaceGrid(points, grid.points_per_element)
 
 
@@ -91,6 +109,22 @@ def _check_division(points: np.ndarray, cells: int) -> None:
         raise ValueError(
             f"{cells} grid cells per element do not divide {columns} cells around and {rows - 1} "
             "along; choose another points_per_element, such as 1."
+        )
+
+
+def _check_first_knot(points: np.ndarray) -> None:
+    """Refuse rows that begin in the middle of an element.
+
+    On a quadratic spline with its knots at every second point, fourth differences vanish at the
+    knots (there the slope is continuous) and not at the middles.
+    """
+    fourth = _lengths(np.diff(points, 4, axis=0)).max(axis=1)
+    at_knots, at_middles = fourth[::2].max(), fourth[1::2].max(initial=0.0)
+    if at_middles < _PHASE * at_knots and at_knots > _SMOOTH * np.abs(points).max():
+        raise ValueError(
+            "the first row lies in the middle of an element, where a grid with 2 points per "
+            "element begins at an edge; give all rows from ring to ring, or set "
+            "points_per_element to 1."
         )
 
 
@@ -118,11 +152,22 @@ def checked_rings(points: np.ndarray, limits: Limits) -> tuple[Circle, Circle]:
     if not smallest <= 2 * bottom.radius <= largest:
         raise ValueError(
             f"the first ring is {2 * bottom.radius:.3g} m wide, where {smallest:g} m to "
-            f"{largest:g} m are possible; give the points in metres."
+            f"{largest:g} m are possible; give the points in metres{_units(2 * bottom.radius)}."
         )
     _check_one_axis(bottom, top, limits)
     _check_winding(points, bottom.radius, limits)
     return bottom, top
+
+
+def _units(diameter: float) -> str:
+    """What a diameter that is none in metres would be in other units."""
+    smallest, largest = DIAMETER_RANGE
+    fitting = [
+        f"times {size:g} if they are in {name} (then it is {size * diameter:.3g} m wide)"
+        for name, size in (("millimetres", 1e-3), ("inches", 0.0254), ("micrometres", 1e-6))
+        if smallest <= size * diameter <= largest
+    ]
+    return f": {', '.join(fitting)}" if fitting else ""
 
 
 def _check_steps(points: np.ndarray, limits: Limits) -> None:
@@ -168,8 +213,13 @@ def _check_winding(points: np.ndarray, radius: float, limits: Limits) -> None:
         )
 
 
-def check_folds(points: np.ndarray, limits: Limits) -> None:
-    """Refuse a surface that is degenerate, turned over or crosses itself.
+def checked_folds(points: np.ndarray, limits: Limits) -> SurfaceFaults:
+    """Refuse a surface that is degenerate, or more turned over or crossing than the limits allow.
+
+    Returns
+    -------
+    SurfaceFaults
+        What of it there is.
 
     Raises
     ------
@@ -189,27 +239,42 @@ def check_folds(points: np.ndarray, limits: Limits) -> None:
         for b in (along, np.roll(along, -1, axis=1))
     ]
     turned = np.min([(corner * normals).sum(axis=2) for corner in corners], axis=0) <= 0
-    if turned.any():
-        _refuse_cell(turned, "turned over", "a corner of it points the other way")
+    if turned.mean() > limits.folded_share:
+        _refuse_cell(turned, "turned over", "a corner of it points the other way", "folded_share")
     limit = np.cos(np.radians(limits.fold_degrees))
     folded = (normals * np.roll(normals, -1, axis=1)).sum(axis=2) < limit
     folded[:-1] |= (normals[:-1] * normals[1:]).sum(axis=2) < limit
-    if folded.any():
-        _refuse_cell(folded, "folded back", "its normal is opposite to its neighbour's")
+    faulty = turned | folded
+    if faulty.mean() > limits.folded_share:
+        _refuse_cell(
+            faulty, "folded back", "its normal is opposite to its neighbour's", "folded_share"
+        )
     crossing = self_crossing_share(np.ascontiguousarray(np.moveaxis(points, 2, 0)))
-    if crossing:
+    if crossing > limits.crossing_share:
         raise ValueError(
             f"the surface crosses itself on {100 * crossing:.2g} % of its area, which no real foil "
-            "does; correct the shape, or resolve its folds with a finer grid."
+            "does; correct the shape, resolve its folds with a finer grid, or analyse it as it is "
+            f"with limits=Limits(crossing_share={_rounded_up(crossing)})."
         )
+    return SurfaceFaults(float(faulty.mean()), crossing)
 
 
-def _refuse_cell(where: np.ndarray, what: str, why: str) -> None:
+def _refuse_cell(where: np.ndarray, what: str, why: str, option: str = "") -> None:
     row, column = np.argwhere(where)[0]
+    as_it_is = ""
+    if option:
+        limit = f"{option}={_rounded_up(where.mean())}"
+        as_it_is = f", or analyse the shape as it is with limits=Limits({limit})"
     raise ValueError(
         f"{int(where.sum())} cells of the grid are {what}, the first in row {row}, column "
-        f"{column}: {why}; correct the points there, or resolve the fold with a finer grid."
+        f"{column}: {why}; correct the points there, or resolve the fold with a finer grid"
+        f"{as_it_is}."
     )
+
+
+def _rounded_up(share: float) -> str:
+    """With two digits, so that as a limit it lets the share pass."""
+    return f"{1.1 * share:.2g}"
 
 
 def _lengths(vectors: np.ndarray) -> np.ndarray:

@@ -4,7 +4,8 @@ Points at the knots do not determine a uniform quadratic spline: the average of 
 control points is blind to an alternating one. Points at the element middles do, (1, 6, 1)/8 being
 well conditioned, and with them the two edges (M. J. Marsden, Quadratic spline interpolation, Bull.
 Amer. Math. Soc. 80, 1974). Around, the elements are laid such that their middles are points of the
-grid; along, the middles are taken from the cubic spline through the points.
+grid; along, the middles are taken from the cubic spline through the points, and both edges are
+knots.
 """
 
 from __future__ import annotations
@@ -37,8 +38,7 @@ def fitted_patch(grid: SurfaceGrid) -> tuple[Patch, np.ndarray]:
         Control points, m.
     """
     points, cells = np.moveaxis(grid.points, 2, 0), grid.points_per_element
-    middles = _along(_around(points, cells), cells)
-    control = _columns_through(_rows_through(middles))
+    control = _columns_through(_best_rows(_along(points, cells), cells))
     around = np.roll(control, -1, axis=2) - control
     along = np.diff(control, axis=1)
     around = 0.5 * (around[:, :-1] + around[:, 1:])
@@ -48,9 +48,33 @@ def fitted_patch(grid: SurfaceGrid) -> tuple[Patch, np.ndarray]:
     return patch, np.ascontiguousarray(control)
 
 
-def _around(points: np.ndarray, cells: int) -> np.ndarray:
-    """Points at the element middles around."""
-    return points[:, :, cells // 2 :: cells]
+def _best_rows(values: np.ndarray, cells: int) -> np.ndarray:
+    """Control points around, for the first column that leaves the other points on the surface.
+
+    With several points per element the elements may begin at any of the first ones. Through the
+    wrong ones the spline waves between the points; that is seen at those left out.
+    """
+    tries = []
+    for first in range(cells):
+        turned = np.roll(values, -first, axis=2)
+        control = _rows_through(turned[:, :, cells // 2 :: cells])
+        tries.append((_misfit(control, turned, cells), control))
+    best = min(tries, key=lambda each: each[0])
+    # as given, unless another one is clearly better
+    return tries[0][1] if tries[0][0] <= 2 * best[0] else best[1]
+
+
+def _misfit(control: np.ndarray, values: np.ndarray, cells: int) -> float:
+    """Largest distance of a point from the surface, both at the same parameter around, m."""
+    following = [np.roll(control, -k, axis=2) for k in range(3)]
+    largest = 0.0
+    for point in range(cells):
+        s = (point + 0.5 * (cells % 2)) / cells  # a single point, or the middle one, is a middle
+        weights = 0.5 * (1 - s) ** 2, 0.5 + s - s**2, 0.5 * s**2
+        surface = sum(w * each for w, each in zip(weights, following, strict=True))
+        away = np.linalg.norm(surface - values[:, :, point::cells], axis=0)
+        largest = max(largest, float(away.max()))
+    return largest
 
 
 def _along(points: np.ndarray, cells: int) -> np.ndarray:

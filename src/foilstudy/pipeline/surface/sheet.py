@@ -15,7 +15,7 @@ from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.surface.checks import (
     DEFAULT_LIMITS,
     Limits,
-    check_folds,
+    checked_folds,
     checked_rings,
     closed_grid,
 )
@@ -69,7 +69,7 @@ def sheet_from_grid(
             f"a thickness of {thickness:g} m between rings of {bottom.radius:.3g} m radius is not "
             "that of a thin shell (at most 1/20 of the radius); give it in metres."
         )
-    check_folds(grid.points, limits)
+    faults = checked_folds(grid.points, limits)
     points = on_axis(grid.points, bottom, top)
     patch, control = fitted_patch(replace(grid, points=points))
     foil = Foil(
@@ -80,7 +80,7 @@ def sheet_from_grid(
         material=material,
     )
     reference = cylinder_control_points(patch, foil.diameter)
-    return Crumpled(foil, patch, control, reference, Corner())
+    return Crumpled(foil, patch, control, reference, Corner(), faults=faults)
 
 
 def _grid_of(source: str | Path | np.ndarray | SurfaceGrid) -> SurfaceGrid:
@@ -88,4 +88,4 @@ def _grid_of(source: str | Path | np.ndarray | SurfaceGrid) -> SurfaceGrid:
         return source
     if isinstance(source, str | Path):
         return read_grid(source)
-    return SurfaceGrid(np.asarray(source))
+    return SurfaceGrid(np.asanyarray(source))  # masks are kept, to be noticed

@@ -12,6 +12,7 @@ are left along the lowest eigenvector: what counts as converged is a minimum.
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -54,6 +55,9 @@ class NewtonOptions:
     metric : csr_matrix, optional
         Positive definite M of the shift, (n, n), of any size (it is scaled to the Hessian at the
         start). Default: the identity.
+    stop_at_saddle : bool
+        Whether to end, a step along the lowest eigenvector lower, where the first Hessian is
+        indefinite, and leave the way down from there to who is faster on long ways.
     """
 
     residual_tolerance: float = 1e-8
@@ -61,6 +65,7 @@ class NewtonOptions:
     iterations_max: int = 100
     steps_per_factorisation: int = 40
     metric: sparse.csr_matrix | None = None
+    stop_at_saddle: bool = False
 
     def residual(self, q: np.ndarray, gradient: np.ndarray) -> float:
         """Relative residual."""
@@ -76,7 +81,8 @@ class NewtonResult:
     ----------
     status : str
         ``converged`` (residual met, no negative eigenvalue), ``not_converged`` (iterations used
-        up) or ``stalled`` (no step lowers the potential any more, or no minimum to be seen).
+        up), ``stalled`` (no step lowers the potential any more, or no minimum to be seen) or
+        ``saddle`` (see `NewtonOptions.stop_at_saddle`).
     message : str
         One sentence on the status.
     q : ndarray, shape (n,)
@@ -119,6 +125,10 @@ class _Point:
 
 class _Stalled(Exception):
     """The search cannot go on; the text says why."""
+
+
+class _AtSaddle(Exception):
+    """The first Hessian is indefinite."""
 
 
 def minimise(
@@ -172,6 +182,8 @@ class _Search:
                     self._leave_saddle(hessian)
                 else:
                     self._descend(hessian)
+            except _AtSaddle:
+                return self._result("saddle", iterations, None, "left a saddle")
             except _Stalled as stall:
                 count = _negative_eigenvalues(hessian)
                 return self._result("stalled", iterations, count, str(stall))
@@ -213,7 +225,12 @@ class _Search:
     def _descend(self, hessian: sparse.csr_matrix) -> None:
         """Quasi-Newton steps with one factored Hessian."""
         while True:
-            inverse = InverseHessian(self._definite(hessian))
+            factor = self._definite(hessian)
+            if self._shift and self._options.stop_at_saddle and not self._steps:
+                with suppress(_Stalled):  # nothing falls along it: on as ever
+                    self._leave_saddle(hessian, factor)
+                    raise _AtSaddle
+            inverse = InverseHessian(factor)
             lengths = []
             while len(lengths) < self._options.steps_per_factorisation:
                 length = self._step(inverse)
@@ -259,9 +276,11 @@ class _Search:
             return -0.5 * float((self._point.gradient + trial.gradient) @ step)
         return self._point.value - trial.value
 
-    def _leave_saddle(self, hessian: sparse.csr_matrix) -> None:
+    def _leave_saddle(
+        self, hessian: sparse.csr_matrix, factor: Factorisation | None = None
+    ) -> None:
         """Follow the lowest eigenvector downhill, in doubling steps, as long as that helps."""
-        mode = self._lowest_mode(hessian)
+        mode = self._lowest_mode(hessian, factor or self._definite(hessian))
         curvature = mode @ (hessian @ mode)
         if curvature >= 0:
             raise _Stalled("a negative eigenvalue was counted, but its eigenvector not found")
@@ -279,13 +298,13 @@ class _Search:
             best = trial
         self._point = best
 
-    def _lowest_mode(self, hessian: sparse.csr_matrix) -> np.ndarray:
+    def _lowest_mode(self, hessian: sparse.csr_matrix, factor: Factorisation) -> np.ndarray:
         """Eigenvector of the lowest eigenvalue of H x = l M x, by shift-invert Lanczos."""
         size = hessian.shape[0]
         if size <= _DENSE:
             dense = hessian.toarray(), self._metric.toarray()
             return eigh(*dense, subset_by_index=(0, 0))[1][:, 0]
-        inverse = LinearOperator((size, size), matvec=self._definite(hessian).solve, dtype=float)
+        inverse = LinearOperator((size, size), matvec=factor.solve, dtype=float)
         start = np.cos(np.arange(size, dtype=float))  # a fixed one gives the same bits
         try:
             return eigsh(

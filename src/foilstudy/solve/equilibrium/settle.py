@@ -22,6 +22,9 @@ from foilstudy.solve.relaxation import Motion, Ramp, StoppingRule, relax
 from foilstudy.solve.residual import relative_residual
 
 _NO_MOTION = Ramp(0.0, 0)
+_OFF_SADDLE, _LOOSER = 2000, 10.0
+"""Steps of relaxation at least once a saddle has been left, as the motion begins slowly, and how
+much earlier it ends: the sheet may come to another saddle."""
 _FREE = slice(RING_ROWS, -RING_ROWS)
 
 
@@ -160,11 +163,15 @@ def settle(
         Never raises for a sheet that does not settle: the status says so.
     """
     options = options or SettleOptions()
-    steps = hessians = newton_steps = 0
+    steps = hessians = newton_steps = saddles = 0
+    steps_min = 0
     for each in range(options.rounds_max):
-        residual = max(options.switch_residual / 3**each, options.residual_tolerance)
+        residual = max(options.switch_residual / 3 ** (each - saddles), options.residual_tolerance)
+        if steps_min:
+            residual = _LOOSER * options.switch_residual
         left = options.relaxation_steps_max - steps
-        relaxed = relax(problem, motion, _NO_MOTION, StoppingRule(residual, left), points)
+        rule = StoppingRule(residual, left, relaxation_steps_min=min(steps_min, left))
+        relaxed = relax(problem, motion, _NO_MOTION, rule, points)
         points, steps = relaxed.points, steps + relaxed.steps
         if relaxed.status == "diverged":
             return SettleResult(
@@ -173,8 +180,14 @@ def settle(
             )  # fmt: skip
         last = relaxed.status == "not_converged"
         most = options.hessians_last if last else options.hessians_per_round
-        points, polished = _polish(problem, points, options, most)
+        before, stop = points, not last and each + 1 < options.rounds_max
+        points, polished = _polish(problem, points, options, most, stop_at_saddle=stop)
         hessians, newton_steps = hessians + polished.iterations, newton_steps + polished.steps
+        at_saddle = polished.status == "saddle"
+        saddles, steps_min = saddles + at_saddle, _OFF_SADDLE * at_saddle
+        if at_saddle:
+            step = points - before  # far enough for the relaxation to notice: a thickness
+            points = before + step * (problem.shell.thickness / np.abs(step).max())
         if polished.status != "converged":
             if last:
                 break
@@ -210,7 +223,11 @@ def _committed(problem: Problem, points: np.ndarray, residual: float) -> float:
 
 
 def _polish(
-    problem: Problem, points: np.ndarray, options: SettleOptions, hessians_max: int
+    problem: Problem,
+    points: np.ndarray,
+    options: SettleOptions,
+    hessians_max: int,
+    stop_at_saddle: bool,
 ) -> tuple[np.ndarray, NewtonResult]:
     """Minimise the energy with the rings held; the new control points and the outcome."""
     held = HeldSheet(problem, points)
@@ -218,6 +235,7 @@ def _polish(
         residual_tolerance=options.residual_tolerance,
         scale=held.ring_force_at,
         iterations_max=hessians_max,
+        stop_at_saddle=stop_at_saddle,
     )
     result = SEARCHES[options.search](held, held.unknowns(points), newton)
     return held.points(result.q), result

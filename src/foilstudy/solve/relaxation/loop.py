@@ -41,11 +41,14 @@ class StoppingRule:
         Steps allowed after the ramp.
     check_interval : int
         Steps between two checks and two history entries.
+    relaxation_steps_min : int
+        Steps after the ramp before which no residual is judged: beside a saddle it is small.
     """
 
     residual_tolerance: float
     relaxation_steps_max: int
     check_interval: int = 20
+    relaxation_steps_min: int = 0
 
 
 @dataclass(frozen=True)
@@ -192,7 +195,7 @@ def relax(
             if not finite or np.isnan(entry.residual):
                 status = "diverged"
                 break
-            if step >= ramp.steps and entry.settled(rule):
+            if step >= ramp.steps + rule.relaxation_steps_min and entry.settled(rule):
                 status = "converged"
                 break
         if step == last_step:

@@ -9,6 +9,7 @@ import numpy as np
 
 from foilstudy.base.costs import Cost
 from foilstudy.base.costs import measured as measured_cost
+from foilstudy.base.outcome import USABLE
 from foilstudy.linalg import SolveError
 from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.model.shell.elements.corner import Corner
@@ -114,19 +115,21 @@ def _refinements(crumpled: Crumpled) -> int:
 
 def run(case: CrumpleCase) -> dict:
     """Crumple and measure a case; every number of it."""
-    crumpled, numbers = settled(case)
-    if numbers["status"] != "diverged":
-        numbers |= measured(crumpled)
-    return numbers
+    return _with_measures(*settled(case))
+
+
+def _with_measures(crumpled: Crumpled, numbers: dict) -> dict:
+    """How a crumple was reached, and what is measured of it if it has a shape."""
+    return numbers | (measured(crumpled) if numbers["status"] in USABLE else {})
 
 
 def run_levels(case: CrumpleCase) -> list[dict]:
     """Crumple a case, then refine and relax it again to the finest size."""
     crumpled, numbers = settled(case)
-    levels = [numbers | measured(crumpled)]
+    levels = [_with_measures(crumpled, numbers)]
     while numbers["status"] == "converged" and crumpled.patch.size_along / 2 >= _REFINED_SIZE_MIN:
         crumpled, numbers = settled_on(crumpled.refined())
-        levels.append(numbers | measured(crumpled))
+        levels.append(_with_measures(crumpled, numbers))
     return [{"level": k} | level for k, level in enumerate(levels)]
 
 

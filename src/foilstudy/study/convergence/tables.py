@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from foilstudy.base.outcome import USABLE
 from foilstudy.base.reference import EXPLICIT_CODE, EXPLICIT_CODE_ENERGIES, published
 from foilstudy.base.tables import markdown_table
 from foilstudy.study.convergence import plan
@@ -135,7 +136,7 @@ def _levels(study: Results) -> str:
     ]  # fmt: skip
     rows = []
     for case, levels in study["levels"].items():
-        for record in levels:
+        for record in filter(_has_shape, levels):
             cpu = record.get("cpu_seconds_relaxing", 0.0) + record.get("cpu_seconds_settling", 0.0)
             share = record["stabilisation_energy"] / record["strain_energy"]
             rows.append(
@@ -154,13 +155,20 @@ def _pair(values) -> str:
     return ", ".join(f"{value:.4g}" for value in values)
 
 
+def _has_shape(record: dict) -> bool:
+    return record["status"] in USABLE
+
+
 def _tall(study: Results) -> str:
     (record,) = [r for c, r in study["crumples"].items() if c.height_mm == plan.TALL_HEIGHT_MM]
     seconds = record["cpu_seconds_relaxing"] + record.get("cpu_seconds_settling", 0.0)
+    title = f"## {plan.FINEST_MM:g} mm, 50 um, h_ref {plan.TALL_HEIGHT_MM} mm\n\n"
+    if not _has_shape(record):
+        return f"{title}{record['status']}: {record['message']}.\n"
     return (
-        f"## {plan.FINEST_MM:g} mm, 50 um, h_ref {plan.TALL_HEIGHT_MM} mm\n\n"
-        f"{record['status']}, residual {record['residual']:.0e}, {record['negative_eigenvalues']} "
-        f"negative eigenvalues; {record['strain_energy']:.4g} J, static stiffness axial, radial "
+        f"{title}{record['status']}, residual {record['residual']:.0e}, "
+        f"{record['negative_eigenvalues']} negative eigenvalues; {record['strain_energy']:.4g} J, "
+        "static stiffness axial, radial "
         f"{_pair(record['static_stiffness'])} N/m, {seconds:.0f} s of crumpling and "
         f"{record['cpu_seconds_static']:.0f} s of stiffness on one core, "
         f"{record['peak_memory_mb'] / 1024:.2f} GB.\n"

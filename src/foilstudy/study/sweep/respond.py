@@ -13,6 +13,7 @@ from foilstudy.base.spec import dumped
 from foilstudy.config import ResponseTask
 from foilstudy.config.foils import foil_of
 from foilstudy.config.scene import dynamics_of
+from foilstudy.linalg import SolveError
 from foilstudy.measure.dynamics import DynamicsOptions, Structure
 from foilstudy.measure.stiffness import fixed_stiffness, free_stiffness
 from foilstudy.model.patch import Patch
@@ -40,7 +41,8 @@ def respond_job(task: ResponseTask, crumple_path: Path, path: Path) -> None:
 
     def work() -> Outcome:
         values = _measured(task, Crumpled.of_record(recorded, attributes))
-        words = filter(None, (outcome.message, _beyond_validity(task, values)))
+        missing = _without_prestress(values), _beyond_validity(task, values)
+        words = filter(None, (outcome.message, *missing))
         return Outcome(outcome.status, "; ".join(words), values)
 
     with measured() as cost:
@@ -54,6 +56,21 @@ def respond_job(task: ResponseTask, crumple_path: Path, path: Path) -> None:
     }
     write_record(path, quantities(values), described, response_origin(task, attributes))
     print(_summary(values) if outcome.values else f"{outcome.status}: {outcome.message}")
+
+
+def _prestressed(crumpled: Crumpled) -> np.ndarray:
+    """NaN where the tangent is singular: the other numbers need none of it."""
+    try:
+        return crumpled.prestressed_stiffness()
+    except SolveError as error:
+        print(f"no pre-stressed stiffness: {error}")
+        return np.full(2, np.nan)
+
+
+def _without_prestress(values: dict) -> str:
+    if np.isfinite(values["prestressed_stiffness"]).all():
+        return ""
+    return "no pre-stressed stiffness, as the tangent of the crumple is singular"
 
 
 def _beyond_validity(task: ResponseTask, values: dict) -> str:
@@ -98,7 +115,7 @@ def _static(crumpled: Crumpled, structure: Structure, refinements: int) -> dict[
         "static_stiffness_converged": limit.stiffness,
         "static_stiffness_mesh_error": limit.error,
         "interface_stiffness": interface,
-        "prestressed_stiffness": crumpled.prestressed_stiffness(),
+        "prestressed_stiffness": _prestressed(crumpled),
     }
 
 
