@@ -32,15 +32,16 @@ test-slow: $(DEVELOPMENT)
 	@$(BIN)/python -m pytest -m "slow or not slow"
 
 lint: $(DEVELOPMENT)
-	@$(BIN)/ruff check src tests workflow/scripts
+	@$(BIN)/ruff check src tests workflow/scripts docs/page_numbers.py
 
 format: $(DEVELOPMENT)
-	@$(BIN)/ruff format src tests workflow/scripts
+	@$(BIN)/ruff format src tests workflow/scripts docs/page_numbers.py
 	@$(BIN)/ruff check --fix src tests workflow/scripts
 
 lock: $(DEVELOPMENT)
 	@$(LOCK) --upgrade requirements/requirements.in -o requirements/requirements.txt
 	@$(LOCK) --upgrade requirements/dev.in -o requirements/dev.txt
+	@$(LOCK) --upgrade requirements/slurm.in -o requirements/slurm.txt
 
 clean:
 	@rm -rf .venv .snakemake .pytest_cache .ruff_cache .hypothesis build src/*.egg-info

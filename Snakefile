@@ -29,6 +29,7 @@ if not workflow.configfiles:
     configfile: DEFAULT_CONFIG
 
 
+include: "workflow/rules/stale.smk"
 include: "workflow/rules/realisations.smk"
 include: "workflow/rules/results.smk"
 include: "workflow/rules/export.smk"

@@ -15,8 +15,9 @@ import numpy as np  # noqa: E402
 import pytest  # noqa: E402
 
 from foilstudy.measure.stiffness import InterfaceSystem, Rings, condense  # noqa: E402
-from foilstudy.model.foil import Foil, Imperfection, Material  # noqa: E402
+from foilstudy.model.foil import Foil, Imperfection  # noqa: E402
 from foilstudy.model.imperfections.cylinder import imperfect_cylinder  # noqa: E402
+from foilstudy.model.materials import Material  # noqa: E402
 from foilstudy.model.patch import Patch, cylinder_control_points  # noqa: E402
 from foilstudy.model.shell.shell import Shell  # noqa: E402
 from foilstudy.model.shell.tangent import mass_matrix  # noqa: E402

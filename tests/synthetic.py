@@ -6,14 +6,15 @@ and the crumple is an analytic wavy cylinder.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
 from foilstudy.base.outcome import USABLE
-from foilstudy.base.record import write_record
+from foilstudy.base.record import read_attributes, write_record
 from foilstudy.config.model import overlength_id, thickness_id
 from foilstudy.model.patch import knot_points
 from foilstudy.study.sweep.cube import CONVENTION
@@ -22,20 +23,52 @@ from foilstudy.study.sweep.quantities import QUANTITIES, quantities
 DIRECTIONS = ["axial", "radial"]
 DEFINITIONS = ["transfer", "driving", "relative"]
 LAW = {"axial": (3.6, -0.9, 1.4), "radial": (3.1, -0.5, 1.42)}
+LIMIT_SHIFT = 0.3
+"""What the mesh limit adds to the exponent of the thickness."""
 EXPONENT = -2.2
 MODES_PER_HZ = 0.3
 GAP_HEIGHT_MM = 130.0
 DIAMETER_MM = 200.0
 FAILED = ("failed", "the ring force is not finite at step 12: lower mesh.element_size_mm")
-CONFIG = """\
-sheet: {diameter_mm: 200, gap_height_mm: 130}
-material: {name: FEP, youngs_modulus_mpa: 650, poisson_ratio: 0.4, density_kg_m3: 2150,
-  yield_stress_mpa: 12}
-mesh: {element_size_mm: 5, element: corner}
-relaxation: {residual_tolerance: 1.0e-6, ramp_steps: 2000}
-stiffness: {refinements: 2}
-report: {title: Synthetic study}
+FEP = """{name: FEP, youngs_modulus_mpa: 650, poisson_ratio: 0.4, density_kg_m3: 2150,
+  yield_stress_mpa: 12}"""
+PET = """{name: PET, youngs_modulus_mpa: 4000, poisson_ratio: 0.38, density_kg_m3: 1390,
+  yield_stress_mpa: 100}"""
+
+
+@dataclass(frozen=True)
+class SyntheticCase:
+    """Foil, gap and mesh of a synthetic study; the published foil on a mesh that resolves it.
+
+    Attributes
+    ----------
+    mesh_error : callable
+        Stated error over the mesh limit, from thickness (um) and overlength (%), which broadcast.
+    """
+
+    diameter_mm: float = DIAMETER_MM
+    gap_height_mm: float = GAP_HEIGHT_MM
+    material: str = FEP
+    element_size_mm: float = 2.0
+    refinements: int = 2
+    mesh_error: Callable = lambda thickness, overlength: 0.05
+
+    @property
+    def config(self) -> str:
+        """The configuration in the cube; its sweep is that of the cube."""
+        return f"""\
+sheet: {{diameter_mm: {self.diameter_mm:g}, gap_height_mm: {self.gap_height_mm:g}}}
+material: {self.material}
+mesh: {{element_size_mm: {self.element_size_mm:g}, element: corner}}
+relaxation: {{residual_tolerance: 1.0e-6, ramp_steps: 2000}}
+stiffness: {{refinements: {self.refinements}}}
+report: {{title: Synthetic study}}
 """
+
+
+CONFIG = SyntheticCase().config
+COARSE = SyntheticCase(element_size_mm=5.0)
+"""The published foil on 5 mm, which does not resolve it below 250 um."""
 CELL = ("thickness", "overlength", "seed")
 
 
@@ -60,6 +93,7 @@ def make_cube(
     cv=lambda overlength, direction: 0.0,
     verdicts: Mapping[tuple[int, int, int], tuple[str, str]] | None = None,
     relaxed_again=False,
+    case: SyntheticCase = SyntheticCase(),
 ):
     """A cube, as `open_cube` gives it, that obeys `LAW` and `EXPONENT`.
 
@@ -70,7 +104,7 @@ def make_cube(
     """
     rng = np.random.default_rng(1)
     t, h = np.asarray(thickness_um, float), np.asarray(reference_height_mm, float)
-    o = 100 * (h - GAP_HEIGHT_MM) / GAP_HEIGHT_MM
+    o = 100 * (h - case.gap_height_mm) / case.gap_height_mm
     f = np.geomspace(1, 800, 60)
     shape = (t.size, o.size, seeds)
     static = np.empty((*shape, 2))
@@ -85,11 +119,20 @@ def make_cube(
     dynamic = magnitude[:, :, :, None] * np.array([1.0, 1.1, 0.9])[:, None, None] * (0.8 + 0.6j)
     values = {
         **_cell_quantities(t[:, None, None], o[None, :, None], shape),
+        "element_size": np.full(shape, case.element_size_mm),
         "first_eigenfrequency": f1,
         "mode_count": np.maximum(0, np.floor(MODES_PER_HZ * (f - f1[..., None]) + 1)),
         **_stiffnesses(t[:, None, None, None], static, relaxed_again),
+        "static_stiffness_mesh_error": np.broadcast_to(
+            np.asarray(case.mesh_error(t[:, None], o[None, :]), float), shape[:2]
+        )[..., None, None]
+        * (t[:, None, None, None] / 600) ** LIMIT_SHIFT
+        * static,
         "dynamic_stiffness": dynamic,
     }
+    if case.refinements == 0:
+        for name in ("static_stiffness_converged", "static_stiffness_mesh_error"):
+            values[name] = np.full_like(static, np.nan)
     status, message = np.full(shape, "converged", object), np.full(shape, "", object)
     for cell, (outcome, words) in (verdicts or {}).items():
         status[cell], message[cell] = outcome, words
@@ -117,7 +160,7 @@ def make_cube(
         {
             "Conventions": CONVENTION,
             "study": "synthetic",
-            "config": CONFIG,
+            "config": case.config,
             "git_commit": "0123abc",
             "created": "2026-01-01T00:00:00Z",
         },
@@ -149,7 +192,6 @@ def _cell_quantities(t, o, shape):
         "negative_eigenvalues": np.where(t > 400, 2.0, 0.0) * ones,
         "steps": 2000 + 1e6 / t * ones,
         "newton_steps": 12 * ones,
-        "element_size": 5 * ones,
         "radial_displacement_min": -20 * ones,
         "radial_displacement_max": 30.4 * ones,
         "beyond_yield_share": np.where(o > 60, 0.2, 0.0) * ones,
@@ -162,7 +204,7 @@ def _cell_quantities(t, o, shape):
 
 
 def _stiffnesses(t, static, relaxed_again):
-    refinement = (t / 600) ** 0.3
+    refinement = (t / 600) ** LIMIT_SHIFT
     # The stress takes more from thick foils: its law has a smaller thickness exponent.
     stressed = 0.5 * (t / 50) ** -0.2 * static
     values = {
@@ -170,7 +212,6 @@ def _stiffnesses(t, static, relaxed_again):
         "static_stiffness_free": 0.8 * static,
         "prestressed_stiffness": stressed,
         "static_stiffness_converged": refinement * static,
-        "static_stiffness_mesh_error": (1 - refinement) * static,
     }
     if relaxed_again:
         values["prestressed_stiffness_converged"] = 0.7 * stressed
@@ -201,6 +242,17 @@ def write_records(cube, folder, element_mm=10.0):
         shapes = np.random.default_rng(s).standard_normal((3, 3, 6, 12))
         write_response(crumple, shapes)
         crumples.append(crumple)
+    return crumples
+
+
+def write_study(cube, folder):
+    """Write a cube and the records that it might have been gathered from."""
+    crumples = write_records(cube, folder)
+    for part in ("crumple", "response"):
+        digests = [read_attributes(path.with_name(f"{part}.nc"))["digest"] for path in crumples]
+        shape = cube["status"].shape
+        cube[f"{part}_digest"] = cube["status"].dims, np.reshape(digests, shape).astype(object)
+    write_cube(cube, folder / "cube.nc")
     return crumples
 
 

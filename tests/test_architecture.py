@@ -91,12 +91,12 @@ def arrows():
 
 def test_the_house_stays_small():
     assert len(ORDER) <= 14
-    assert sum(map(len, arrows().values())) <= 45
+    assert sum(map(len, arrows().values())) <= 46
 
 
 def test_the_page_shows_the_rooms_as_they_are():
     page = (ROOT.parents[1] / "docs/architecture.md").read_text(encoding="utf-8")
-    rows = re.findall(r"^\| `(\w+)` \| .* \| ([^|]*) \|$", page.split("## Four ideas")[0], re.M)
+    rows = re.findall(r"^\| `(\w+)` \| .* \| ([^|]*) \|$", page.split("## Five ideas")[0], re.M)
     shown = {name: re.findall(r"`(\w+)`", imports) for name, imports in rows}
     assert tuple(shown) == ORDER
     assert {name: set(imports) for name, imports in shown.items()} == arrows()

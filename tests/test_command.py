@@ -65,6 +65,15 @@ def test_help_lists_every_command_with_its_purpose(capsys):
         assert f"{name} {purpose}" in text
 
 
+def test_help_shows_the_one_call_in_python(capsys):
+    text = spoken(capsys, "--help")
+    lines = [line.strip() for line in text.splitlines()]
+    code = lines[lines.index("from foilstudy import Foil, crumple") :]
+    space = {}
+    exec("\n".join(code).replace("print", "result = "), space)
+    assert space["result"].shape == (2,) and (space["result"] > 1e3).all()
+
+
 def test_help_of_export_names_every_format(capsys):
     text = spoken(capsys, "export", "--help")
     assert all(re.search(rf"\b{name}\b", text) for name in [*FORMATS, "all"])
@@ -109,14 +118,14 @@ def test_a_fault_of_the_package_keeps_its_traceback(tmp_path, monkeypatch):
 
 
 def test_check_of_the_default_study_says_what_will_be_computed(capsys):
-    """pi 200 mm / 5 mm is 125.7, so 126 elements around; 135 and 200 mm are 27 and 40 along."""
+    """pi 200 mm / 4.56 mm is 137.8, so 140 elements around; 135 and 200 mm are 30 and 44 along."""
     text = spoken(capsys, "check", ROOT / "config/config.yaml")
     assert "results/default" in text
-    assert f"{126 * 27} to {126 * 40}" in text and f"{4 * 126 * 27} to {4 * 126 * 40}" in text
+    assert f"{140 * 30} to {140 * 44}" in text and f"{4 * 140 * 30} to {4 * 140 * 44}" in text
     assert "3.85, 15.4, 53.8 %" in text
-    assert "27 realisations make 54 jobs (crumple, response for each)" in text
+    assert "18 realisations make 36 jobs (crumple, response for each)" in text
     assert "2000 steps of ramp, at most 14000 after it" in text
-    for thickness in ("130 um", "250 um", "500 um"):
+    for thickness in ("500 um", "700 um", "1000 um"):
         assert thickness in text
 
 

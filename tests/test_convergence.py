@@ -1,12 +1,13 @@
 """The convergence study: its imperfect foils, fits, records, tables and figures."""
 
 import csv
+from collections import defaultdict
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from side_study import write_results
 
-from foilstudy.base.costs import Cost
 from foilstudy.base.files import read_json, write_json
 from foilstudy.base.tables import csv_text
 from foilstudy.model.mesh_size import element_size_for, expected_energy_error
@@ -15,8 +16,7 @@ from foilstudy.study.convergence import crumpling, plan, stops, tables
 from foilstudy.study.convergence.analysis import fit, means, slope
 from foilstudy.study.convergence.plan import STUDY
 from foilstudy.study.convergence.records import ensemble as read_ensemble
-from foilstudy.study.kernel.files import read_records, write_record
-from foilstudy.study.kernel.plan import Record, case_name
+from foilstudy.study.kernel.files import read_records
 from foilstudy.study.published import THICKNESSES_UM, CrumpleCase
 
 COARSE = CrumpleCase("corner", 500, 150, 12.0, 0)
@@ -173,10 +173,10 @@ def fake_stop(residual):
 @pytest.fixture(scope="module")
 def synthetic_study(tmp_path_factory):
     folder = tmp_path_factory.mktemp("convergence")
+    results = defaultdict(dict)
 
     def write(part, case, result):
-        record = Record(part, case, result, Cost())
-        write_record(STUDY, record, folder / STUDY.part(part).files(case_name(case))[0])
+        results[part][case] = result
 
     for case in plan.crumples():
         write("crumples", case, fake_record(case))
@@ -191,7 +191,7 @@ def synthetic_study(tmp_path_factory):
         for s in plan.SIZES_MM
     ]
     write("timing", "steps", timing)
-    return STUDY.findings(read_records(STUDY, folder))
+    return STUDY.findings(read_records(STUDY, write_results(STUDY, results, folder)))
 
 
 def test_tables_hold_every_run(synthetic_study):

@@ -2,6 +2,7 @@
 
 import shutil
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,11 +10,13 @@ import xarray as xr
 import yaml
 
 from foilstudy import load_config, open_cube
-from foilstudy.base.record import read_record, write_record
+from foilstudy.base.record import read_attributes, read_record, write_record
+from foilstudy.pipeline.crumple import crumple
 from foilstudy.present.report.health import assess
 from foilstudy.study.sweep.crumple import crumple_job
 from foilstudy.study.sweep.cube import gather
 from foilstudy.study.sweep.cylinder import cylinder_bounds
+from foilstudy.study.sweep.origins import refined_origin
 from foilstudy.study.sweep.quantities import quantities
 from foilstudy.study.sweep.respond import respond_job
 
@@ -35,6 +38,7 @@ CONFIG = load_config(
         },
     }
 )
+REFINED_ONCE = {"refinements": 0, "relaxed_refinements": 1}
 CRASHED, DIVERGED = (0, 0, 1), (1, 0, 0)
 """Cells (thickness, overlength, seed) whose records are spoilt."""
 
@@ -49,13 +53,10 @@ def results(tmp_path_factory):
     results = tmp_path_factory.mktemp("results")
     for index, cell in zip(np.ndindex(2, 1, 2), CONFIG.cells(), strict=True):
         folder = folder_of(results, cell)
-        task = CONFIG.crumple_task(cell)
-        if index == DIVERGED:
-            absurd = task.imperfection.model_copy(update={"amplitude_um": 1e6})
-            relaxation = task.relaxation.model_copy(update={"relaxation_steps_max": 20})
-            task = task.model_copy(update={"imperfection": absurd, "relaxation": relaxation})
-        crumple_job(task, folder / "crumple.nc")
         with pytest.MonkeyPatch.context() as patch:
+            if index == DIVERGED:
+                patch.setattr(sys.modules["foilstudy.study.sweep.crumple"], "crumple", absurd)
+            crumple_job(CONFIG.crumple_task(cell), folder / "crumple.nc")
             if index == CRASHED:
                 patch.setattr(
                     sys.modules["foilstudy.study.sweep.respond"], "fixed_stiffness", explode
@@ -63,6 +64,11 @@ def results(tmp_path_factory):
             respond_job(CONFIG.response_task(cell), folder / "crumple.nc", folder / "response.nc")
     cylinder_bounds(CONFIG, results / "cylinder.nc")
     return results
+
+
+def absurd(foil, mesh, imperfection, method):
+    """A crumple that diverges in the place of the one that was asked for."""
+    return crumple(foil, mesh, replace(imperfection, amplitude=1.0), method)
 
 
 def explode(*_):
@@ -127,16 +133,18 @@ def test_spoilt_cells_are_flagged_and_empty(cube):
 def test_a_record_of_refining_counts_only_where_the_study_asks_for_it(results, cube, tmp_path):
     """One left by an earlier setting is not read; one that did not settle is flagged."""
     shutil.copytree(results, tmp_path, dirs_exist_ok=True)
-    for cell in CONFIG.cells():
+    asked = load_config(CONFIG.model_dump(mode="json") | {"stiffness": REFINED_ONCE})
+    for cell in asked.cells():
         attributes = {"status": "converged", "message": "relaxed"}
         values = {"prestressed_stiffness_converged": np.array([1.0, 2.0])}
         if cell.seed == 0:
             attributes = {"status": "not_converged", "message": "refinement 1: step limit"}
             values = {}
-        write_record(folder_of(tmp_path, cell) / "refined.nc", quantities(values), attributes)
+        folder = folder_of(tmp_path, cell)
+        origin = refined_origin(asked.refine_task(cell), read_attributes(folder / "crumple.nc"))
+        write_record(folder / "refined.nc", quantities(values), attributes, origin)
     ignored = gather(CONFIG, tmp_path, tmp_path / "without.nc")
     xr.testing.assert_equal(ignored, cube)
-    asked = load_config(CONFIG.model_dump(mode="json") | {"stiffness": {"relaxed_refinements": 1}})
     relaxed = gather(asked, tmp_path, tmp_path / "with.nc")
     stopped = relaxed.isel(thickness=0, overlength=0, seed=0)
     assert (stopped.status, stopped.refined_status) == ("converged", "not_converged")

@@ -2,15 +2,14 @@
 
 import numpy as np
 import pytest
+from side_study import write_results
 
-from foilstudy.base.costs import Cost
 from foilstudy.model.foil import Foil
 from foilstudy.model.shell.elements.corner import Corner
 from foilstudy.pipeline.shape import Shape
 from foilstudy.plot.save import save
 from foilstudy.study.dynamics import measure, plan, records, tables
-from foilstudy.study.kernel.files import read_records, write_record
-from foilstudy.study.kernel.plan import Record, case_name
+from foilstudy.study.kernel.files import read_records
 
 
 @pytest.fixture(scope="module")
@@ -31,12 +30,12 @@ def study(coarse_crumple, tmp_path_factory):
         }
         checked = measure.check(plan.Model(500), {})
     folder = tmp_path_factory.mktemp("dynamics")
-    results = [("charts", model, made[model.prestressed]) for model in plan.CHARTED]
-    results += [("checks", model, checked) for model in plan.CHECKED]
-    results += [("shapes", shape, {"points": points}) for shape in plan.STUDY.part("shapes").cases]
-    for part, case, result in results:
-        path = folder / plan.STUDY.part(part).files(case_name(case))[0]
-        write_record(plan.STUDY, Record(part, case, result, Cost()), path)
+    results = {
+        "charts": {model: made[model.prestressed] for model in plan.CHARTED},
+        "checks": dict.fromkeys(plan.CHECKED, checked),
+        "shapes": dict.fromkeys(plan.STUDY.part("shapes").cases, {"points": points}),
+    }
+    write_results(plan.STUDY, results, folder)
     return plan.STUDY.findings(read_records(plan.STUDY, folder))
 
 

@@ -15,7 +15,7 @@ from wild_sheets import (
     wild_sheet,
 )
 
-from foilstudy.model.foil import Material
+from foilstudy.model.materials import Material
 from foilstudy.model.patch import Patch, fitted_control_points
 from foilstudy.model.shell.elements import corner_kernel, sampling
 from foilstudy.model.shell.elements.corner import Corner

@@ -1,11 +1,12 @@
 """The comparison of elements: what it measures, and that its table and chart come of it."""
 
 import csv
+from collections import defaultdict
 
 import numpy as np
 import pytest
+from side_study import write_results
 
-from foilstudy.base.costs import Cost
 from foilstudy.base.tables import csv_text
 from foilstudy.model.patch import cylinder_control_points
 from foilstudy.model.shell.elements.corner import Corner
@@ -20,8 +21,7 @@ from foilstudy.study.elements.frozen import frozen_errors
 from foilstudy.study.elements.plan import BASELINE, COARSE_MM, DEFAULT, FROZEN, STUDY
 from foilstudy.study.elements.summary import variant_row
 from foilstudy.study.elements.variants import VARIANTS
-from foilstudy.study.kernel.files import read_records, write_record
-from foilstudy.study.kernel.plan import Record, case_name
+from foilstudy.study.kernel.files import read_records
 from foilstudy.study.published import foil
 
 
@@ -61,10 +61,10 @@ def test_errors_of_a_frozen_shape_are_relative_to_the_mean_of_the_referees():
 @pytest.fixture
 def study(tmp_path):
     """Made-up records of all variants, one of which found no answers."""
+    results = defaultdict(dict)
 
     def write(part, case, result):
-        record = Record(part, case, result, Cost())
-        write_record(STUDY, record, tmp_path / STUDY.part(part).files(case_name(case))[0])
+        results[part][case] = result
 
     for k, name in enumerate(VARIANTS):
         error = np.nan if k == 0 else 0.01 * k
@@ -84,7 +84,7 @@ def study(tmp_path):
         write("frozen", case, {"points": np.zeros((3, 2, 2))})
     costs = {"relative": dict.fromkeys(VARIANTS, 1.5), "nanoseconds": {DEFAULT: 60.0}}
     write("cost", BASELINE, costs)
-    return STUDY.findings(read_records(STUDY, tmp_path))
+    return STUDY.findings(read_records(STUDY, write_results(STUDY, results, tmp_path)))
 
 
 def test_numbers_of_a_variant_come_through(study):

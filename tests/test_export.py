@@ -12,7 +12,7 @@ from conftest import DIAMETER, FOIL, GAP_HEIGHT, THICKNESS, cylinder
 from scipy.io import loadmat
 from test_workflow import changed, plan
 
-from foilstudy.base.record import write_record
+from foilstudy.base.record import read_attributes, write_record
 from foilstudy.command import main
 from foilstudy.config import Export, load_config
 from foilstudy.config.foils import foil_of
@@ -22,13 +22,13 @@ from foilstudy.export.energies import element_energies, principal_strains
 from foilstudy.export.formats import FORMATS
 from foilstudy.export.write import write
 from foilstudy.measure.dynamics import (
+    CONDITIONS,
     DEFINITIONS,
-    HintzHerting,
+    DynamicsOptions,
     ModalDamping,
     RayleighDamping,
     StructuralDamping,
     directional_stiffness,
-    frequency_grid,
     interface_dynamic_stiffness,
 )
 from foilstudy.measure.dynamics.damping_matrix import damping_matrix
@@ -40,14 +40,14 @@ from foilstudy.model.shell.elements import ELEMENTS
 from foilstudy.model.shell.shell import Shell
 from foilstudy.pipeline.crumpled import described
 from foilstudy.pipeline.shape import Shape
-from foilstudy.pipeline.structures import stress_free_structure
 from foilstudy.pipeline.surface import SurfaceGrid, sheet_from_grid
 from foilstudy.pipeline.surface.fit import fitted_patch
 from foilstudy.study.sweep.export import contents_of, export_realisation
+from foilstudy.study.sweep.origins import crumple_origin, response_origin
 from foilstudy.study.sweep.quantities import quantities
 
 MODES = 4
-RATIO = 0.05
+RATIO, BAND_HZ = 0.05, 300.0
 VISCOUS = [ModalDamping(RATIO), RayleighDamping.between(RATIO, 20.0, 300.0)]
 
 
@@ -55,14 +55,10 @@ VISCOUS = [ModalDamping(RATIO), RayleighDamping.between(RATIO, 20.0, 300.0)]
 def contents(coarse_crumple):
     sheet = coarse_crumple.sheet
     crumple = Shape(FOIL, sheet.patch, coarse_crumple.points, sheet.reference, sheet.element)
-    return Contents(
-        crumple,
-        HintzHerting(400.0).reduce(stress_free_structure(crumple)),
-        ModalDamping(RATIO),
-        frequency_grid(1.0, 300.0, 25),
-        {"seed": "0", "created": "2026-01-01T00:00:00+00:00"},
-        MODES,
+    options = DynamicsOptions(
+        highest_hz=BAND_HZ, frequencies=25, damping=ModalDamping(RATIO), mode_shapes=MODES
     )
+    return Contents(crumple, options, {"seed": "0", "created": "2026-01-01T00:00:00+00:00"})
 
 
 @pytest.fixture(scope="module")
@@ -193,7 +189,7 @@ def test_state_space_is_stable_but_for_the_rigid_motions(matlab):
 
 def test_universal_file_holds_every_pair_of_motions(contents, folder):
     sets = pyuff.UFF(str(folder / "frequency_response.uff")).read_sets()
-    units, nodes, *functions = sets
+    header, units, nodes, *functions = sets
     assert units["units_code"] == 1 and units["length"] == 1.0
     assert list(nodes["node_nums"]) == [1, 2]
     np.testing.assert_allclose(nodes["z"], contents.ring_heights, atol=1e-6)
@@ -211,7 +207,7 @@ def test_universal_file_holds_every_pair_of_motions(contents, folder):
 
 def test_universal_file_names_definition_and_direction(contents, folder):
     sets = pyuff.UFF(str(folder / "frequency_response.uff")).read_sets()
-    named = {f["id1"].strip(): f["data"] for f in sets[2:] if not f["rsp_node"]}
+    named = {f["id1"].strip(): f["data"] for f in sets[3:] if not f["rsp_node"]}
     stiffness = directional_stiffness(contents.dynamic_stiffness)
     assert len(named) == 6
     for d, definition in enumerate(DEFINITIONS):
@@ -232,6 +228,90 @@ def test_table_has_units_and_every_digit(contents, folder):
                 column = values.pop(f"{definition} {direction} {part} (N/m)")
                 np.testing.assert_array_equal(column, getattr(stiffness[d, e], part))
     assert not values
+
+
+MOTIONS = [(q, c) for q in ("receptance", "accelerance") for c in CONDITIONS]
+
+
+@pytest.mark.parametrize(("quantity", "condition"), MOTIONS)
+def test_universal_file_for_modal_software(contents, folder, quantity, condition):
+    """What its fields say, after the specification of dataset 58, and the values."""
+    sets = pyuff.UFF(str(folder / f"{quantity}_{condition}.uff")).read_sets()
+    header, units, nodes, *functions = sets
+    assert header["model_name"].strip() == str(contents.crumple.foil)
+    assert header["description"].strip() == "crumpled, seed 0"
+    assert units["units_code"] == 1 and list(nodes["node_nums"]) == [1, 2]
+    expected = contents.motion_per_force(quantity, condition)
+    size = {"free": 12, "bottom_held": 6}[condition]
+    assert len(functions) == size**2
+    places = set()
+    for function in functions:
+        response, reference = (
+            (int(function[f"{end}_node"]), int(function[f"{end}_dir"])) for end in ("rsp", "ref")
+        )
+        places.add((response, reference))
+        i, j = (6 * (node - 1) + way - 1 for node, way in (response, reference))
+        assert function["id1"].strip() == f"{quantity}: {DOF_NAMES[i]} per force on {DOF_NAMES[j]}"
+        assert function["func_type"] == 4 and function["ord_data_type"] == 5
+        assert function["abscissa_spec_data_type"] == 18 and function["abscissa_spacing"] == 1
+        assert function["ordinate_spec_data_type"] == {"receptance": 8, "accelerance": 12}[quantity]
+        assert function["orddenom_spec_data_type"] == 13
+        unit = ("m" if response[1] <= 3 else "rad") + ("" if quantity == "receptance" else "/s^2")
+        assert function["ordinate_axis_units_lab"].strip() == unit
+        force = "N" if reference[1] <= 3 else "N m"
+        assert function["orddenom_axis_units_lab"].strip() == force
+        assert function["id3"].strip() == "01-JAN-26 00:00:00"
+        assert function["id5"].strip() == contents.even_grid.words
+        np.testing.assert_allclose(function["x"], contents.even_grid.frequencies, rtol=1e-9)
+        first = 12 - size
+        values = expected[:, i - first, j - first]
+        np.testing.assert_allclose(function["data"].real, values.real, rtol=1e-5, atol=1e-99)
+        np.testing.assert_allclose(function["data"].imag, values.imag, rtol=1e-5, atol=1e-99)
+    assert len(places) == size**2
+    nodes = {node for node, _ in (place for pair in places for place in pair)}
+    assert nodes == ({1, 2} if condition == "free" else {2})
+
+
+def test_dynamic_stiffness_in_a_universal_file_is_force_per_displacement(folder):
+    sets = pyuff.UFF(str(folder / "frequency_response.uff")).read_sets()
+    for function in sets[3:]:
+        assert function["func_type"] == 4 and function["abscissa_spacing"] == 0
+        assert function["ordinate_spec_data_type"] == 13
+        assert function["orddenom_spec_data_type"] == 8
+        if not function["rsp_node"]:  # exponents follow from the direction, where there is one
+            assert function["ordinate_force_unit_exp"] == function["orddenom_len_unit_exp"] == 1
+
+
+@pytest.mark.parametrize(("quantity", "condition"), MOTIONS)
+def test_table_of_motion_per_force_has_units_and_every_digit(contents, folder, quantity, condition):
+    with (folder / f"{quantity}_{condition}.csv").open(newline="") as file:
+        header, *rows = csv.reader(file)
+    values = dict(zip(header, np.array(rows, dtype=float).T, strict=True))
+    np.testing.assert_array_equal(values.pop("frequency (Hz)"), contents.even_grid.frequencies)
+    expected = contents.motion_per_force(quantity, condition)
+    names = DOF_NAMES[12 - expected.shape[1] :]
+    per = {"receptance": "", "accelerance": "/s^2"}[quantity]
+    for i, response in enumerate(names):
+        for j, reference in enumerate(names):
+            unit = ("m" if "_u" in response else "rad") + per
+            unit += "/N" if "_u" in reference else "/(N m)"
+            for part in ("real", "imag"):
+                column = values.pop(f"{response} per force on {reference} {part} ({unit})")
+                np.testing.assert_array_equal(column, getattr(expected[:, i, j], part))
+    assert not values
+
+
+def test_matlab_file_of_motion_per_force(contents, folder):
+    content = loadmat(folder / "motion_per_force.mat", squeeze_me=True, simplify_cells=True)
+    np.testing.assert_array_equal(content["frequency_Hz"], contents.even_grid.frequencies)
+    assert content["spacing_Hz"] == contents.even_grid.spacing
+    for condition, names in (("free", DOF_NAMES), ("bottom_held", DOF_NAMES[6:])):
+        part = content[condition]
+        assert list(part["motion_names"]) == list(names)
+        assert len(part["motion_units"]) == len(part["force_units"]) == len(names)
+        for quantity in ("receptance", "accelerance"):
+            ours = np.moveaxis(part[quantity], 2, 0)
+            np.testing.assert_array_equal(ours, contents.motion_per_force(quantity, condition))
 
 
 # --- shapes --------------------------------------------------------------------------------------
@@ -397,19 +477,27 @@ def realisation(coarse_crumple, tmp_path):
     def record(status, message="as it should be"):
         attributes = described(foil_of(task), recipe_of(task))
         attributes |= {"status": status, "message": message}
-        write_record(folder / "crumple.nc", quantities(values), attributes)
+        write_record(folder / "crumple.nc", quantities(values), attributes, crumple_origin(task))
+        respond()
 
-    record("converged")
+    def respond(**dynamics):
+        """A response with other dynamics than the study's."""
+        task = response.model_copy(
+            update={"dynamics": response.dynamics.model_copy(update=dynamics)}
+        )
+        origin = response_origin(task, read_attributes(folder / "crumple.nc"))
+        write_record(folder / "response.nc", {}, {}, origin)
+
     response = study.response_task(cell)
-    write_record(folder / "response.nc", {}, {"task": response.model_dump_json()})
-    return SimpleNamespace(folder=folder, task=response, record=record)
+    record("converged")
+    return SimpleNamespace(folder=folder, task=response, record=record, respond=respond)
 
 
 def test_realisation_leaves_the_formats_and_what_they_are(realisation):
     out = realisation.folder / "export"
     export_realisation(realisation.task, realisation.folder / "crumple.nc", out, "csv", "npz")
     names = sorted(path.name for path in out.iterdir())
-    assert names == ["README.txt", "frequency_response.csv", "shape.npz"]
+    assert names == ["README.txt", "frequency_response.csv", "manifest.json", "shape.npz"]
     readme = (out / "README.txt").read_text()
     assert all(FORMATS.choices[name].words in readme for name in ("csv", "npz"))
 
@@ -418,7 +506,7 @@ def test_realisation_without_equilibrium_leaves_its_reason_alone(realisation):
     realisation.record("not_converged", "residual 1e-3")
     out = realisation.folder / "export"
     export_realisation(realisation.task, realisation.folder / "crumple.nc", out, *FORMATS)
-    assert [path.name for path in out.iterdir()] == ["README.txt"]
+    assert {path.name for path in out.iterdir()} == {"README.txt", "manifest.json"}
     assert "not_converged (residual 1e-3)" in (out / "README.txt").read_text()
     with pytest.raises(ValueError, match="only an equilibrium is exported"):
         contents_of(realisation.task, realisation.folder / "crumple.nc")
@@ -429,7 +517,9 @@ def test_format_that_cannot_hold_the_damping_leaves_the_others(realisation):
     task = realisation.task.model_copy(update={"dynamics": dynamics})
     out = realisation.folder / "export"
     export_realisation(task, realisation.folder / "crumple.nc", out, "mat", "csv")
-    assert sorted(p.name for p in out.iterdir()) == ["README.txt", "frequency_response.csv"]
+    assert {p.name for p in out.iterdir()} == {
+        "README.txt", "frequency_response.csv", "manifest.json",
+    }  # fmt: skip
     assert "reduced.mat: not written" in (out / "README.txt").read_text()
 
 
@@ -451,6 +541,54 @@ def test_command_line_writes_every_format_and_the_shape_comes_back(realisation, 
     np.testing.assert_allclose(back.points, expected, atol=1e-14)
 
 
+def test_command_line_writes_what_it_can_and_says_what_it_could_not(realisation, capsys):
+    """Structural damping has no matrix C: no reduced model, all else."""
+    realisation.respond(damping="structural")
+    main(["export", str(realisation.folder), "--format=all"])
+    out, err = capsys.readouterr()
+    folder = realisation.folder / "export"
+    refused = ["reduced.mat", "reduced.nc"]
+    names = {kind.filename for kind in FORMATS.choices.values()} - set(refused)
+    assert {path.name for path in folder.iterdir()} == names
+    assert sorted(out.splitlines()) == sorted(f"wrote {folder / name}" for name in names)
+    lines = sorted(err.splitlines())
+    assert len(lines) == len(refused)
+    for line, name in zip(lines, refused):
+        assert line.startswith(f"{folder / name}: not written: StructuralDamping")
+
+
+def test_shapes_are_written_where_no_model_is_valid(realisation, capsys, monkeypatch):
+    """Without a reduced model only the points alone can be; and the reduction is tried once."""
+    realisation.respond(reduction="guyan", shown_min_hz=90.0)
+    tries, reduced = [], DynamicsOptions.reduced
+    monkeypatch.setattr(
+        DynamicsOptions, "reduced", lambda *given: tries.append(given) or reduced(*given)
+    )
+    main(["export", str(realisation.folder), "--format=all"])
+    out, err = capsys.readouterr()
+    assert out == f"wrote {realisation.folder / 'export' / 'shape.npz'}\n"
+    assert len(err.splitlines()) == len(FORMATS) - 1 and len(tries) == 1
+    assert all("not written: the guyan model is wrong by" in line for line in err.splitlines())
+
+
+def test_command_line_fails_only_if_nothing_was_written(realisation, monkeypatch, capsys):
+    """A reason for each format, even for a fault of a writer; and no traceback."""
+
+    def fail(*_):
+        raise TypeError("no such writer")
+
+    monkeypatch.setattr("foilstudy.export.write.write", fail)
+    with pytest.raises(SystemExit) as end:
+        main(["export", str(realisation.folder), "--format=all"])
+    lines = end.value.code.splitlines()
+    assert len(lines) == len(FORMATS)
+    assert all("not written: TypeError: no such writer" in line for line in lines)
+    assert capsys.readouterr().out == ""
+    file = realisation.folder / "response.nc"
+    with pytest.raises(SystemExit, match="is a file, and all formats need a folder"):
+        main(["export", str(realisation.folder), "--format=all", f"--output={file}"])
+
+
 def test_command_line_refuses_in_one_sentence(realisation):
     """`SystemExit` with a text prints it and ends with code 1."""
     with pytest.raises(SystemExit) as unknown:
@@ -461,7 +599,7 @@ def test_command_line_refuses_in_one_sentence(realisation):
     with pytest.raises(SystemExit, match=r"its status is diverged \(step 12\)"):
         main(["export", str(realisation.folder), "--format=csv"])
     (realisation.folder / "response.nc").unlink()
-    with pytest.raises(SystemExit, match=r"^\S+response.nc: No such file or directory; check path"):
+    with pytest.raises(SystemExit, match=r"^\S+response.nc: cannot be read .*No such file"):
         main(["export", str(realisation.folder), "--format=csv"])
 
 

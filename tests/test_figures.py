@@ -10,7 +10,15 @@ import matplotlib.text
 import numpy as np
 import pytest
 from PIL import Image
-from synthetic import FAILED, MODES_PER_HZ, make_cube, write_crumple, write_cube, write_response
+from synthetic import (
+    COARSE,
+    FAILED,
+    MODES_PER_HZ,
+    make_cube,
+    write_crumple,
+    write_cube,
+    write_response,
+)
 
 from foilstudy.model.patch import Patch, cylinder_control_points
 from foilstudy.plot.crumples import (
@@ -202,7 +210,7 @@ def test_stiffness_figure_shows_mean_fit_and_published_law():
     assert np.exp(at) == pytest.approx(10807, rel=1e-3)
     cube["static_stiffness_mesh_error"][:] = 0.2 * cube["static_stiffness_converged"]
     ax = FIGURES["stiffness_axial"].draw(cube=cube).axes[-1]
-    bars = {c.get_label(): c for c in ax.containers}["same shapes, mesh limit ± error"]
+    bars = {c.get_label(): c for c in ax.containers}["mesh limit, bar: stated error"]
     limit = cube["static_stiffness_converged"].sel(thickness=500, direction="axial").mean("seed")
     np.testing.assert_allclose(bars.lines[0].get_ydata(), limit)
     ends = np.array([segment[:, 1] for segment in bars.lines[2][0].get_segments()])
@@ -270,7 +278,7 @@ def test_dynamic_stiffness_figure_takes_every_definition():
 
 
 def test_modal_density_figure_shows_the_density_and_that_of_a_plate():
-    cube = make_cube(thickness_um=(50.0, 500.0), seeds=3)
+    cube = make_cube(thickness_um=(50.0, 500.0), seeds=3, case=COARSE)
     thin, thick = FIGURES["modal_density"].draw(cube=cube).axes[:2]
     curve = next(line for line in thin.get_lines() if line.get_label() == "92 %")
     top = curve.get_xdata() > 300

@@ -84,3 +84,12 @@ def test_a_dent_crosses_only_where_it_passes_the_far_wall():
     assert self_crossing_share(finger(1.9)) == 0.0
     shallow, deep = self_crossing_share(finger(2.1)), self_crossing_share(finger(2.6))
     assert 0 < shallow < deep < 0.2
+
+
+@pytest.mark.parametrize("number", [np.nan, np.inf])
+def test_points_that_are_not_finite_are_refused(number):
+    """Their cell would lie outside the table of cells."""
+    surface = extruded(limacon(40))
+    surface[1, 2, 3] = number
+    with pytest.raises(ValueError, match="not finite"):
+        self_crossing_share(surface)

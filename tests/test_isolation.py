@@ -169,14 +169,17 @@ def test_impossible_mounts_are_refused_with_a_reason():
         ResonantMount.with_resonance(Spring(4e3), 10.0, 0.1)
     with pytest.raises(ValueError, match="viscous damper"):
         ResonantMount.with_resonance(Spring(1e3, viscous_damping=1.0), 80.0, 0.5)
-    with pytest.raises(ValueError, match="would feed energy"):
+    with pytest.raises(
+        ValueError,
+        match="loss factor of a mount's spring is -0.1; give a finite number of at least 0",
+    ):
         Spring(1e3, loss_factor=-0.1)
     for what, make in (
         ("stiffness of a mount's spring", lambda: Spring(0.0)),
         ("suspended mass", lambda: Spring.suspending(-1.0, 2.0)),
         ("internal mass", lambda: ResonantMount(STATIC, STATIC, np.nan)),
     ):
-        with pytest.raises(ValueError, match=f"The {what}"):
+        with pytest.raises(ValueError, match=f"the {what}"):
             make()
 
 

@@ -3,6 +3,7 @@
 import csv
 import os
 import re
+import shutil
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -12,10 +13,17 @@ import numpy as np
 import pytest
 
 from foilstudy.base.costs import Cost, measured
-from foilstudy.base.errors import ConfigError
+from foilstudy.base.errors import ConfigError, Refusal
 from foilstudy.base.tables import csv_text, markdown_table
-from foilstudy.study.kernel.files import measure, present, problems, read_record, read_records
-from foilstudy.study.kernel.plan import Lazy, Part, Record, Study, case_name
+from foilstudy.study.kernel.files import (
+    measure,
+    present,
+    problems,
+    read_record,
+    read_records,
+    stale_results,
+)
+from foilstudy.study.kernel.plan import DECIDING, Lazy, Part, Record, Study, case_name
 from foilstudy.study.registry import STUDIES, refuse_reserved_name
 
 ROOT = Path(__file__).parents[1]
@@ -89,8 +97,11 @@ def test_the_plans_import_no_numerics():
 # --- records -------------------------------------------------------------------------------------
 
 
+FACTOR = 2.0
+
+
 def double(case):
-    block = np.full(4_000_000, 2.0 * case.thickness_um)
+    block = np.full(4_000_000, FACTOR * case.thickness_um)
     return {"points": block[:6].reshape(2, 3), "mean": block.mean(), "pair": [1.0, np.nan]}
 
 
@@ -159,6 +170,93 @@ def test_tables_and_costs_are_written_of_the_findings(folder):
     assert [row["case"] for row in rows][2] == "all" and len(rows) == 3
     assert float(rows[0]["peak_memory_mb"]) > 32
     assert problems(TINY, folder) == ["500 um: 1000 is much"]
+
+
+def stale(folder):
+    return {
+        each.path.relative_to(folder).as_posix(): each.reason
+        for each in stale_results(TINY, folder)
+    }
+
+
+THIN_JSON = "shapes/corner-thickness50um-size5mm.json"
+THICK_JSON = "shapes/corner-thickness500um-size5mm.json"
+SHOWN = {"means.csv", "means.md", "costs.csv"}
+
+
+def test_a_finished_study_counts(folder):
+    assert stale(folder) == {}
+    present(TINY, folder)
+    assert stale(folder) == {}
+
+
+@pytest.mark.parametrize(
+    "spoil",
+    [
+        lambda text: text[: len(text) // 2],
+        lambda text: "",
+        lambda text: "[]",
+        lambda text: text.replace('"mean": 100.0', '"mean": 101.0'),
+        lambda text: text.replace(r"\"study\": \"tiny\"", r"\"study\": \"other\""),
+    ],
+)
+def test_a_spoilt_record_and_what_is_made_of_it_are_made_again(folder, spoil):
+    present(TINY, folder)
+    path = folder / THIN_JSON
+    path.write_text(spoil(path.read_text()))
+    found = stale(folder)
+    # the job of the totals follows from its own input
+    assert found.keys() - {"totals/all.json"} == {THIN_JSON} | SHOWN
+    with pytest.raises(Refusal, match="run the study again, which makes it anew"):
+        present(TINY, folder)
+
+
+def test_the_record_or_the_arrays_of_another_case_are_noticed(folder):
+    npz = Path(THIN_JSON).with_suffix(".npz"), Path(THICK_JSON).with_suffix(".npz")
+    kept = (folder / npz[0]).read_bytes()
+    shutil.copy(folder / npz[1], folder / npz[0])
+    assert "not those that were written" in stale(folder)[THIN_JSON]
+    (folder / npz[0]).write_bytes(kept)
+    assert stale(folder) == {}
+    for suffix in (".json", ".npz"):
+        source = (folder / THICK_JSON).with_suffix(suffix)
+        shutil.copy(source, (folder / THIN_JSON).with_suffix(suffix))
+    assert "another task" in stale(folder)[THIN_JSON]
+
+
+def test_a_record_made_of_others_follows_them(folder, monkeypatch):
+    needed = [folder / file for file in TINY.needed(TINY.parts[1], "all")]
+    monkeypatch.setattr(sys.modules[__name__], "FACTOR", 3.0)
+    measure(TINY, "shapes", THIN_JSON[7:-5], folder / THIN_JSON)
+    assert stale(folder) == {"totals/all.json": "was made from other records than those beside it"}
+    measure(TINY, "totals", "all", folder / "totals/all.json", needed)
+    assert stale(folder) == {}
+
+
+def test_other_code_of_a_measurement_makes_its_records_again(folder, monkeypatch):
+    present(TINY, folder)
+    monkeypatch.setattr(Part, "code", property(lambda part: f"other {part.name == 'totals'}"))
+    assert stale(folder).keys() == {THIN_JSON, THICK_JSON} | SHOWN
+    monkeypatch.undo()
+    monkeypatch.setattr(Study, "presenting_code", "other")
+    assert stale(folder).keys() == SHOWN
+    assert set(stale(folder).values()) == {"was made by other code"}
+
+
+def test_tables_without_records_are_no_result_of_ones_own(folder):
+    present(TINY, folder)
+    shutil.rmtree(folder / "shapes")
+    assert stale(folder).keys() - {"totals/all.json"} == SHOWN
+
+
+@pytest.mark.parametrize("study", STUDIES.values(), ids=STUDIES)
+def test_the_code_of_a_study_is_its_own_and_the_physics(study):
+    for part in study.parts:
+        modules = set(part.measured_by.modules())
+        rooms = {module.partition(".")[0] for module in modules}
+        assert {"model", "study"} <= rooms <= {*DECIDING, "config"}
+        assert not any("figures" in m or ".kernel" in m or "tables" in m for m in modules)
+    assert part.code != study.presenting_code
 
 
 def test_tables_leave_empty_what_is_not_there():

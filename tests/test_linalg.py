@@ -180,11 +180,37 @@ def test_a_singular_matrix_is_refused(solver, make):
         factorise(make())
 
 
-def test_a_matrix_that_is_not_finite_is_refused(solver):
-    matrix = plate(4, 4)
-    matrix.data[5] = np.nan
-    with pytest.raises(SolveError):
+@pytest.mark.parametrize("number", [np.nan, np.inf])
+def test_numbers_that_are_not_finite_are_refused_before_any_solver_sees_them(
+    solver, number, monkeypatch
+):
+    """Native code may never come back from them, or die."""
+    matrix, loads = plate(4, 4), np.ones((16, 2))
+    factor = factorise(matrix)
+    loads[3, 1] = number
+    with pytest.raises(SolveError, match="right-hand side holds 1 numbers that are not finite"):
+        factor.solve(loads)
+    monkeypatch.setattr(pardiso, "_job_for", None)
+    monkeypatch.setattr("foilstudy.linalg.superlu.splu", None)
+    matrix.data[5] = number
+    with pytest.raises(SolveError, match="matrix holds 1 numbers that are not finite"):
         factorise(matrix)
+
+
+def test_mode_searches_and_krylov_spaces_refuse_numbers_that_are_not_finite():
+    stiffness, mass = clamped_cylinder(25e-3)
+    factor = factorise(stiffness)
+    holed = mass.copy()
+    holed.data[7] = np.nan
+    with pytest.raises(SolveError, match="not finite"):
+        modes_below(stiffness, holed, 1e6)
+    with pytest.raises(SolveError, match="not finite"):
+        lowest_modes(stiffness, holed, factor, 4)
+    load = np.ones((stiffness.shape[0], 2))
+    with pytest.raises(SolveError, match="not finite"):
+        BlockKrylov(holed).append(factor, load)
+    load[:, 1] = 0.0  # a direction of no length is nothing, not a number over zero
+    assert BlockKrylov(mass).append(factor, load).shape[1] == 1
 
 
 def test_the_same_bits_every_time(solver):

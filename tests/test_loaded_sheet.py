@@ -5,7 +5,7 @@ import pytest
 from conftest import FEP, rotation
 
 from foilstudy.linalg import factorise
-from foilstudy.model.foil import Material
+from foilstudy.model.materials import Material
 from foilstudy.model.patch import Patch, fitted_control_points
 from foilstudy.model.shell.shell import Shell
 from foilstudy.model.supports.edges import (

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
-from synthetic import FAILED, MODES_PER_HZ, make_cube
+from synthetic import COARSE, FAILED, MODES_PER_HZ, make_cube
 
 from foilstudy.measure.dynamics.mac import mac
-from foilstudy.model.foil import Material
+from foilstudy.model.materials import Material
 from foilstudy.plot.mac import ModeLabels, draw_mac
 from foilstudy.present.report.modes import modal_density_findings, overlength_findings
 from foilstudy.present.statistics.modal_density import (
@@ -237,7 +237,7 @@ def test_findings_tell_the_frequency_from_which_the_overlengths_agree():
 
 
 def test_findings_tell_the_modal_density_beside_a_plate():
-    cube = make_cube(thickness_um=(50.0, 500.0), seeds=2)
+    cube = make_cube(thickness_um=(50.0, 500.0), seeds=2, case=COARSE)
     first, mesh = modal_density_findings(cube)
     assert "has 0.30 modes per Hz" in first and "flat plate of the same foil" in first
     assert "above 136 Hz at 50 µm: beyond" in mesh

@@ -217,6 +217,31 @@ def test_start_that_is_not_finite_is_refused():
         minimise(Column(5, load=1.0), np.full(5, np.nan))
 
 
+class Pit(Quadratic):
+    """A bowl that is no number beyond a radius: in its gradient, or in its Hessian alone."""
+
+    def __init__(self, radius, where):
+        super().__init__(np.diag([1.0, 40.0]), [3.0, 40.0])
+        self.radius, self.where = radius, where
+
+    def value_and_gradient(self, q):
+        value, gradient = super().value_and_gradient(q)
+        if self.where == "gradient" and np.linalg.norm(q) > self.radius:
+            gradient = np.full(2, np.nan)
+        return value, gradient
+
+    def hessian(self, q):
+        return self.matrix * (np.nan if self.where == "hessian" else 1.0)
+
+
+@pytest.mark.parametrize("where", ["gradient", "hessian"])
+def test_what_is_no_number_ends_a_search_in_words(where):
+    result = minimise(Pit(2.0, where), np.array([0.5, 0.2]), NewtonOptions(iterations_max=8))
+    assert result.status in ("stalled", "not_converged")
+    assert np.isfinite(result.residual)
+    assert np.linalg.norm(result.q) <= 2.0
+
+
 def test_corrected_inverse_meets_the_secant_condition_and_stays_symmetric():
     rng = np.random.default_rng(1)
     spread = rng.standard_normal((12, 12))

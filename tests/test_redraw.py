@@ -9,7 +9,7 @@ import matplotlib.image
 import numpy as np
 import pandas as pd
 import pytest
-from synthetic import FAILED, make_cube, ten_percent, write_cube, write_records
+from synthetic import FAILED, make_cube, ten_percent, write_cube, write_study
 
 from foilstudy import open_cube
 from foilstudy.present.figures import FIGURES
@@ -36,7 +36,7 @@ def figures_in(page):
 
 
 def test_cube_with_its_records_gives_everything(folder):
-    write_records(open_cube(folder / "cube.nc"), folder)
+    write_study(open_cube(folder / "cube.nc"), folder)
     redrawn = redraw(folder)
     assert redrawn.kept == redrawn.left_out == []
     assert {path.name for path in redrawn.written} == {
@@ -67,7 +67,7 @@ def test_cube_alone_keeps_the_pictures_that_it_cannot_draw(folder):
 
 
 def test_records_of_a_part_do_not_pass_for_the_study(folder):
-    crumples = write_records(open_cube(folder / "cube.nc"), folder)
+    crumples = write_study(open_cube(folder / "cube.nc"), folder)
     assert StudyFiles.found(folder / "cube.nc").crumple_paths == tuple(crumples)
     crumples[0].with_name("response.nc").unlink()
     assert StudyFiles.found(folder / "cube.nc").crumple_paths == ()

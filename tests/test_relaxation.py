@@ -15,7 +15,7 @@ from conftest import (
 
 from foilstudy.linalg import factorise
 from foilstudy.measure.stiffness import InterfaceSystem, Rings, condense
-from foilstudy.model.foil import Material
+from foilstudy.model.materials import Material
 from foilstudy.model.patch import RING_ROWS, Patch, cylinder_control_points
 from foilstudy.model.shell.shell import Shell
 from foilstudy.solve.problem import Problem

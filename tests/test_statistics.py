@@ -6,13 +6,17 @@ import numpy as np
 import pandas as pd
 import pytest
 from scipy import stats
-from synthetic import EXPONENT, FAILED, LAW, make_cube
+from synthetic import COARSE, EXPONENT, FAILED, LAW, PET, SyntheticCase, make_cube
 
-from foilstudy.base.reference import published
+from foilstudy.base.reference import PowerLaw, published
+from foilstudy.present.comparison import comparable, comparison_sentence
 from foilstudy.present.statistics.cells import samples
 from foilstudy.present.statistics.eigenfrequency import eigenfrequency_table
 from foilstudy.present.statistics.powerlaw import (
+    LIMIT,
     SIMULATED,
+    TRUSTED,
+    answering_source,
     fit_power_law,
     powerlaw_table,
     simulated_law,
@@ -21,6 +25,7 @@ from foilstudy.present.statistics.powerlaw import (
 from foilstudy.present.statistics.regression import fit_linear
 from foilstudy.present.statistics.summary import stiffness_summary
 from foilstudy.present.statistics.tables import TABLES, write_tables
+from foilstudy.present.statistics.trust import assess_trust
 from foilstudy.present.statistics.variability import (
     coefficient_of_variation,
     coefficient_of_variation_interval,
@@ -143,7 +148,7 @@ def test_values_that_have_no_logarithm_do_not_enter():
     ],
 )
 def test_degenerate_sweep_drops_its_regressor(kwargs, lost, note):
-    row = powerlaw_table(noisy_cube(**kwargs)).iloc[0]
+    row = powerlaw_table(noisy_cube(**kwargs)).set_index("source").loc["simulation"].iloc[0]
     assert np.isnan(row[lost])
     assert note in row["note"]
     kept = "beta" if lost == "gamma" else "gamma"
@@ -291,6 +296,194 @@ def test_summary_compares_each_configuration_with_the_published_fits():
     assert row["cv"] == pytest.approx(values.std(ddof=1) / values.mean())
     assert row["ratio_simulation"] == pytest.approx(values.mean() / 10807, rel=1e-4)
     assert (row["min"], row["max"]) == (values.min(), values.max())
+
+
+# --- which stiffness is trusted ------------------------------------------------------------------
+
+
+def test_everything_resolved_and_accurate_is_trusted():
+    cube = make_cube()
+    trust = assess_trust(cube)
+    assert trust.trusted.all() and not trust.doubted.any()
+    np.testing.assert_allclose(trust.mesh_error, 0.05)
+    np.testing.assert_allclose(trust.slenderness.sel(thickness=50), 2 / np.sqrt(100 * 0.05))
+    assert answering_source(cube, "axial") == LIMIT
+    assert stiffness_summary(cube)["trusted"].all()
+
+
+def test_a_crumple_is_resolved_up_to_the_end_of_the_fit():
+    trust = assess_trust(make_cube(case=COARSE))
+    # 5 mm over sqrt(R t) is 2.2, 1.4, 1.0 and 0.7
+    assert list(trust.trusted.any(["overlength", "direction"]).values) == [False, False, True, True]
+    assert (trust.unresolved == ~trust.trusted).all()
+
+
+def test_a_stated_error_of_more_than_a_fifth_of_one_value_is_not_trusted():
+    cube = noisy_cube()
+    limit = cube["static_stiffness_converged"]
+    cube["static_stiffness_mesh_error"][3, 4, 5, 0] = 0.201 * limit[3, 4, 5, 0]
+    cube["static_stiffness_mesh_error"][3, 3, 5, 0] = 0.199 * limit[3, 3, 5, 0]
+    trust = assess_trust(cube)
+    assert int(trust.doubted.sum()) == 1 and trust.inaccurate[3, 4, 0]
+    assert trust.trusted.sel(direction="radial").all()
+
+
+def test_a_value_without_a_stated_error_is_not_trusted():
+    cube = make_cube(verdicts={(0, 0, 0): FAILED})
+    cube["static_stiffness_mesh_error"][1, 1, 1, 1] = np.nan
+    trust = assess_trust(cube)
+    assert int(trust.unstated.sum()) == 1 and trust.unstated[1, 1, 1]
+    none = assess_trust(make_cube(case=SyntheticCase(refinements=0)))
+    assert none.unstated.all() and not none.trusted.any()
+    assert assess_trust(make_cube().assign_attrs(config="")).unresolved.all()
+
+
+def test_a_cell_without_result_is_neither_trusted_nor_doubted():
+    trust = assess_trust(make_cube(seeds=1, verdicts={(0, 0, 0): FAILED}))
+    assert not trust.known[0, 0].any()
+    assert not trust.trusted[0, 0].any() and not trust.doubted[0, 0].any()
+
+
+def wrong_below_250_um(thickness_um):
+    """The mesh limit is off by a factor that the law of the others does not follow."""
+    return np.where(np.asarray(thickness_um) < 250, 3.0, 1.0)
+
+
+def test_the_law_that_answers_is_of_the_trusted_configurations_alone():
+    cube = make_cube(case=COARSE)
+    wrong = (
+        cube["static_stiffness_converged"]
+        * wrong_below_250_um(cube["thickness"])[:, None, None, None]
+    )
+    cube = cube.assign(static_stiffness_converged=wrong)
+    assert answering_source(cube, "axial") == TRUSTED
+    table = powerlaw_table(cube).set_index(["direction", "source"])
+    assert table.index.get_level_values("source")[0] == TRUSTED
+    row = table.loc[("axial", TRUSTED)]
+    assert row["n"] == 60 and row["gamma"] == pytest.approx(LAW["axial"][2] + 0.3)
+    assert abs(table.loc[("axial", LIMIT), "gamma"] - row["gamma"]) > 0.3
+
+
+def test_no_law_answers_where_nothing_is_trusted():
+    cube = make_cube(case=SyntheticCase(mesh_error=lambda t, o: 2.1))
+    assert answering_source(cube, "axial") is None
+    assert TRUSTED not in set(powerlaw_table(cube)["source"])
+
+
+# --- one meaning of an interval ------------------------------------------------------------------
+
+
+def bent_cube():
+    cube = noisy_cube()
+    bend = np.exp(0.2 * np.log(cube["overlength"] / 30) ** 2)
+    names = ("static_stiffness", "static_stiffness_converged")
+    return cube.assign({name: cube[name] * bend for name in names})
+
+
+def test_intervals_are_clustered_where_the_law_lacks_fit():
+    table = powerlaw_table(bent_cube())
+    row = table[table["source"] == "simulation"].iloc[0]
+    assert row["interval"] == "clustered" and row["lack_of_fit_p"] < 0.05
+    factor = stats.t.ppf(0.975, 19)  # of 20 configurations
+    for name in KEYS:
+        half = max(
+            factor * row[f"{name}_se_clustered"], stats.t.ppf(0.975, 117) * row[f"{name}_se"]
+        )
+        assert row[f"{name}_high"] - row[name] == pytest.approx(half, rel=1e-9)
+        assert row[name] - row[f"{name}_low"] == pytest.approx(half, rel=1e-9)
+    straight = powerlaw_table(noisy_cube()).iloc[0]
+    assert straight["interval"] == "independent"
+
+
+def test_clustered_interval_covers_the_truth_where_independent_ones_do_not():
+    """The configurations depart from the law by chance; seeds scatter little about each."""
+    rng = np.random.default_rng(7)
+    x = np.repeat(np.linspace(0, 1, 12), 5)
+    cluster = np.repeat(np.arange(12), 5)
+    covered = {"independent": 0, "clustered": 0}
+    for _ in range(300):
+        y = 2 * x + np.repeat(rng.standard_normal(12), 5) + 0.2 * rng.standard_normal(60)
+        plain = fit_linear(y, {"x": x})
+        fit = plain.allowing_for(cluster)
+        assert fit.interval == "clustered"
+        covered["independent"] += plain.low["x"] < 2 < plain.high["x"]
+        covered["clustered"] += fit.low["x"] < 2 < fit.high["x"]
+    assert covered["independent"] / 300 < 0.75
+    assert covered["clustered"] / 300 > 0.88
+
+
+def test_band_of_a_clustered_fit_agrees_with_its_interval():
+    rng = np.random.default_rng(7)
+    x, cluster = np.repeat(np.linspace(-1, 1, 8), 4), np.repeat(np.arange(8), 4)
+    y = 2 * x + np.repeat(rng.standard_normal(8), 4) + 0.1 * rng.standard_normal(32)
+    fit = fit_linear(y, {"x": x}).allowing_for(cluster)
+    mean, low, high = fit.predict({"x": np.zeros(1)})
+    assert (mean[0], low[0], high[0]) == pytest.approx(
+        (fit.value["constant"], fit.low["constant"], fit.high["constant"])
+    )
+
+
+def test_eigenfrequency_interval_allows_for_heights_that_depart_from_the_law():
+    cube = noisy_cube()
+    bend = np.exp(0.5 * np.log(cube["reference_height"] / 180) ** 2 / 0.05)
+    table = eigenfrequency_table(
+        cube.assign(first_eigenfrequency=cube["first_eigenfrequency"] * bend)
+    )
+    assert (table["interval"] == "clustered").all()
+    half = (table["exponent_high"] - table["exponent_low"]) / 2
+    assert (half > 2.05 * table["exponent_se"]).all()
+
+
+# --- what the published results hold for ---------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("case", "why"),
+    [
+        (SyntheticCase(diameter_mm=120, gap_height_mm=80), "diameter 120 mm instead of 200"),
+        (SyntheticCase(diameter_mm=205), "diameter 205 mm instead of 200"),
+        (SyntheticCase(gap_height_mm=127), "gap 127 mm instead of 130"),
+        (SyntheticCase(material=PET), "E 4000 MPa instead of 650"),
+    ],
+)
+def test_nothing_published_stands_beside_another_case(case, why):
+    cube = make_cube(seeds=2, case=case)
+    assert comparable(cube) is None
+    assert why in comparison_sentence(cube)
+    assert not powerlaw_table(cube)["source"].str.startswith("published").any()
+    for table in (stiffness_summary(cube), eigenfrequency_table(cube)):
+        assert not [name for name in table if "published" in name or "ratio" in name]
+
+
+def test_nothing_published_stands_beside_a_sweep_beyond_its_own():
+    thin = make_cube(thickness_um=(25.0, 500.0), seeds=1)
+    assert "thickness 25 to 500 µm outside 50 to 500" in comparison_sentence(thin)
+    tall = make_cube(reference_height_mm=(135.0, 300.0), seeds=1)
+    assert "overlength 3.85 to 131 % outside 3.85 to 92.3" in comparison_sentence(tall)
+    assert "does not tell foil and gap" in comparison_sentence(thin.assign_attrs(config=""))
+
+
+def test_the_published_case_bears_what_a_handbook_leaves_open():
+    near = SyntheticCase(
+        diameter_mm=203, gap_height_mm=131, material=published_material().replace("650", "630")
+    )
+    # the heights make the same overlengths in the other gap
+    cube = make_cube(reference_height_mm=(137.0, 170.0, 250.0), seeds=1, case=near)
+    assert comparable(cube) is not None and comparison_sentence(cube) == ""
+
+
+def published_material():
+    return SyntheticCase().material
+
+
+def test_both_forms_of_the_law_give_the_same_stiffness():
+    law = PowerLaw(-0.4, -1.07, 2.09)
+    free = law.dimensionless(radius_mm=60.0, youngs_modulus_mpa=4000.0)
+    assert free.gamma == pytest.approx(1.09)
+    for overlength, thickness in ((15.0, 25.0), (60.0, 100.0)):
+        share = free.stiffness(overlength / 100, thickness * 1e-6 / 0.06)
+        stiffness = share * 4000e6 * thickness * 1e-6
+        assert stiffness == pytest.approx(law.stiffness(overlength, thickness), rel=1e-12)
 
 
 def test_write_tables_writes_readable_files_and_leaves_no_temporary(tmp_path):

@@ -13,7 +13,7 @@ from foilstudy.measure.stiffness import (
     free_stiffness,
 )
 from foilstudy.measure.stiffness.rings import interface_rigid_modes, rigid_motion
-from foilstudy.model.foil import Material
+from foilstudy.model.materials import Material
 from foilstudy.model.patch import refine
 from foilstudy.model.shell.elements.corner import Corner
 from foilstudy.model.shell.elements.one_point import OnePoint

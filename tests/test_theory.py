@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from foilstudy.model.foil import Material
+from foilstudy.model.materials import Material
 from foilstudy.study.verification import theory_cylinder, theory_plate
 from foilstudy.study.verification.theory_cylinder import Cylinder
 from foilstudy.study.verification.theory_roof import Roof, edge_deflection

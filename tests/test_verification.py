@@ -11,7 +11,7 @@ import pytest
 from foilstudy.base.costs import Cost
 from foilstudy.base.files import read_json
 from foilstudy.study.kernel.files import read_record, write_record
-from foilstudy.study.kernel.plan import Record
+from foilstudy.study.kernel.plan import Record, case_name
 from foilstudy.study.verification.candidates import CANDIDATES
 from foilstudy.study.verification.figures import draw
 from foilstudy.study.verification.plan import BENCHMARKS, ELEMENT_NAMES, STUDY
@@ -75,7 +75,8 @@ def test_records_are_read_as_they_were_written(tmp_path):
     picture = Picture.of("shape", grid, grid[0])
     plot = Plot("u", "F", (Curve("tip", (0.0, 1.0), (0.0, 2.0), (1.0,), (2.1,)),))
     benchmark = Benchmark("name", "Title", "corner", (quantity(converging(2.0)),), plot, (picture,))
-    path, case = tmp_path / "record.json", STUDY.part("benchmarks").cases[0]
+    case = STUDY.part("benchmarks").cases[0]
+    path = tmp_path / STUDY.part("benchmarks").files(case_name(case))[0]
     write_record(STUDY, Record("benchmarks", case, asdict(benchmark), Cost()), path)
     (read,) = benchmarks_of({"benchmarks": {case: read_record(STUDY, path)}})
     np.testing.assert_equal(asdict(read), read_json(path)["result"])

@@ -2,6 +2,7 @@
 
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -10,10 +11,13 @@ from pathlib import Path
 
 import frozen
 import markupsafe
+import numpy as np
 import pytest
 import xarray as xr
 import yaml
+from small_study import SECTIONS, compute, sections_with
 
+from foilstudy.base.record import read_record
 from foilstudy.config.sections import CONSTANTS
 from foilstudy.export.formats import FORMATS
 from foilstudy.model.materials import MATERIALS
@@ -63,18 +67,16 @@ def changed(**sections):
 
 
 @pytest.fixture(scope="module")
-def finished(tmp_path_factory):
-    """Folder in which the tiny study counts as finished: its outputs exist, empty but recorded."""
-    folder = tmp_path_factory.mktemp("finished")
-    summary = snakemake(folder, TINY, "--summary")
-    for line in summary.stdout.splitlines():
-        if line.startswith("results/"):
-            path = folder / line.split("\t")[0]
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.touch()
-    touched = snakemake(folder, TINY, "--touch", "--forceall", "-j1")
-    assert touched.returncode == 0, touched.stderr
+def computed(tmp_path_factory):
+    """A folder with a finished small study, of which Snakemake has never heard."""
+    folder = tmp_path_factory.mktemp("computed")
+    compute(folder / "results" / "small")
     return folder
+
+
+@pytest.fixture
+def finished(computed, tmp_path):
+    return Path(shutil.copytree(computed, tmp_path / "copied"))
 
 
 def test_tiny_study_has_one_job_per_step_and_realisation(tmp_path):
@@ -185,30 +187,63 @@ def test_an_interrupted_study_says_how_to_go_on_and_does(tmp_path):
 
 
 def test_finished_study_has_nothing_to_do(finished):
-    assert plan(finished, TINY) == {}
+    assert plan(finished, SECTIONS) == {}
 
 
 def test_title_leaves_all_physics_alone(finished):
-    jobs = plan(finished, changed(report={"title": "Another title"}))
-    assert jobs["report"] == 1
-    assert not {"crumple", "response", "cylinder"} & set(jobs)
+    jobs = plan(finished, sections_with(report={"title": "Another title"}))
+    assert (jobs["cube"], jobs["tables"], jobs["report"]) == (1, 1, 1)
+    assert not {"crumple", "response", "cylinder", "export"} & set(jobs)
 
 
 def test_new_thickness_leaves_finished_realisations_alone(finished):
-    jobs = plan(finished, changed(sweep={"thickness_um": [250, 500, 130]}))
+    jobs = plan(finished, sections_with(sweep={"thickness_um": [500, 130]}))
     assert (jobs["crumple"], jobs["response"], jobs["cube"]) == (4, 4, 1)
 
 
 def test_dynamics_leaves_crumples_alone(finished):
-    jobs = plan(finished, changed(dynamics={"frequencies": 41}))
-    assert jobs["response"] == 8
+    jobs = plan(finished, sections_with(dynamics={"frequencies": 5}))
+    assert jobs["response"] == 4
     assert "crumple" not in jobs
 
 
 def test_imperfection_crumples_all_again(finished):
-    jobs = plan(finished, changed(imperfection={"kind": "gaussian", "amplitude_um": 20}))
-    assert (jobs["crumple"], jobs["response"]) == (8, 8)
+    jobs = plan(finished, sections_with(imperfection={"amplitude_um": 20}))
+    assert (jobs["crumple"], jobs["response"], jobs["export"]) == (4, 4, 4)
     assert "cylinder" not in jobs
+
+
+def test_another_material_is_told_and_crumpled_whatever_the_dates(finished):
+    """As in a clone or a copy, where every file may have any date."""
+    for path in finished.rglob("*"):
+        os.utime(path)
+    config = sections_with(material={"name": "PET"})
+    run = snakemake(finished, config, "--dry-run")
+    said = 'small: 6 files, each was made for another task (material.name "FEP", not "PET", and'
+    assert said in run.stdout + run.stderr
+    jobs = plan(finished, config)
+    assert (jobs["crumple"], jobs["response"], jobs["cylinder"], jobs["cube"]) == (4, 4, 1, 1)
+
+
+def test_a_cube_without_its_records_stops_nobody(finished):
+    """As a clone brings it along."""
+    shutil.rmtree(finished / "results/small/realisations")
+    jobs = plan(finished, SECTIONS)
+    assert (jobs["crumple"], jobs["response"], jobs["cube"], jobs["report"]) == (4, 4, 1, 1)
+
+
+def test_a_spoilt_record_is_repaired_by_the_same_command(finished):
+    record = finished / "results/small/realisations/t500um/h143mm/0/crumple.nc"
+    whole = record.read_bytes()
+    record.write_bytes(whole[:1000])
+    target = str(record.relative_to(finished))
+    run = snakemake(finished, SECTIONS, "-j1", target)
+    assert run.returncode == 0, run.stderr
+    assert "small: crumple.nc cannot be read as a record" in run.stdout + run.stderr
+    values, _ = read_record(record)
+    record.write_bytes(whole)
+    before, _ = read_record(record)
+    np.testing.assert_array_equal(values["control_points"], before["control_points"])
 
 
 def assert_same_cube(first, second):

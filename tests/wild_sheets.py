@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from conftest import DIAMETER, FEP, rotation
 
-from foilstudy.model.foil import Material
+from foilstudy.model.materials import Material
 from foilstudy.model.patch import Patch, cylinder_control_points, fitted_control_points
 from foilstudy.model.shell.elements.corner import Corner
 from foilstudy.model.shell.elements.protocol import Element

@@ -2,9 +2,9 @@
 
 In a notebook::
 
-    from foilstudy import Foil, Mesh, crumple, material
+    from foilstudy import Foil, Mesh, crumple
 
-    foil = Foil(0.2, 0.17, 0.13, 500e-6, material("FEP"))  # diameter, heights, thickness, m
+    foil = Foil(0.2, 0.17, 0.13, 500e-6, "FEP")            # diameter, heights, thickness, m
     crumpled = crumple(foil, Mesh(5e-3))
     crumpled.stiffness()                                   # axial and radial, N/m
     crumpled.plot()
@@ -21,7 +21,7 @@ _LAZY = {
     "DynamicsOptions": "foilstudy.measure.dynamics.options",
     "Foil": "foilstudy.model.foil",
     "Imperfection": "foilstudy.model.foil",
-    "Material": "foilstudy.model.foil",
+    "Material": "foilstudy.model.materials",
     "Mesh": "foilstudy.pipeline.method",
     "Method": "foilstudy.pipeline.method",
     "StudyConfig": "foilstudy.config",
@@ -44,4 +44,5 @@ def __getattr__(name: str):
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__, "__version__"})
+    """The public names: what stands beside them is how they are loaded."""
+    return [*__all__, "__version__"]

@@ -5,12 +5,14 @@ import os
 import shlex
 import subprocess
 import sys
-from importlib.metadata import version
 from pathlib import Path
 
+from foilstudy.base.manifest import MANIFEST
 from foilstudy.config import ConfigError, load_merged
 from foilstudy.config.slips import likely_slips
 from foilstudy.present.figures import FIGURES
+from foilstudy.present.files import StudyFiles
+from foilstudy.present.shown import shown
 from foilstudy.study.registry import refuse_reserved_name
 from foilstudy.study.sweep.expected import costly, expected
 from snakemake.logging import logger
@@ -41,9 +43,8 @@ RESULTS = f"results/{STUDY.study.name}"
 LOGS = f"{RESULTS}/logs"
 BENCHMARKS = f"{RESULTS}/benchmarks"
 CELLS = STUDY.cells()
+PRESENTED = shown(StudyFiles(Path(RESULTS, "cube.nc")))
 RESULTS_LOCKS = []
-# Results of another release of the package count as outdated, like those of another task.
-VERSION = version("foilstudy")
 # The interpreter that runs Snakemake, whether or not its environment is activated. A rule writes
 # "{RUN} MODULE:FUNCTION words". Plain commands can be repeated by hand, and spare each job the
 # import of Snakemake by `script:`; job.py spares it that of everything else, where there is a
@@ -122,7 +123,7 @@ def claim_results():
             refuse_results(problem.strerror, folder)
         try:
             fcntl.flock(RESULTS_LOCKS[-1], fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except (BlockingIOError, PermissionError):
+        except BlockingIOError:
             remedy = ", or give this one another study.name" if folder == RESULTS else ""
             refuse(f"{folder}: another run is writing this study; wait until it ends{remedy}.")
         except OSError as problem:

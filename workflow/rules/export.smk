@@ -14,7 +14,6 @@ rule export:
     params:
         task=response_task,
         formats=list(STUDY.export.formats),
-        version=VERSION,
     log:
         f"{LOGS}/export/{CELL_FLAT}.log",
     benchmark:

@@ -2,11 +2,12 @@
 
 
 rule crumple:
+    input:
+        lambda wildcards: make_stale_again(RESULTS),
     output:
         f"{RESULTS}/realisations/{CELL}/crumple.nc",
     params:
         task=crumple_task,
-        version=VERSION,
     log:
         f"{LOGS}/crumple/{CELL_FLAT}.log",
     benchmark:
@@ -26,7 +27,6 @@ rule response:
         f"{RESULTS}/realisations/{CELL}/response.nc",
     params:
         task=response_task,
-        version=VERSION,
     # Finished realisations first: an interrupted study then holds whole ones.
     priority: 1
     log:
@@ -48,7 +48,6 @@ rule refine:
         f"{RESULTS}/realisations/{CELL}/refined.nc",
     params:
         task=refine_task,
-        version=VERSION,
     priority: 1
     log:
         f"{LOGS}/refine/{CELL_FLAT}.log",
@@ -63,11 +62,12 @@ rule refine:
 
 
 rule cylinder:
+    input:
+        lambda wildcards: make_stale_again(RESULTS),
     output:
         f"{RESULTS}/cylinder.nc",
     params:
         study=lambda wildcards: STUDY.cylinder_task(),
-        version=VERSION,
     log:
         f"{LOGS}/cylinder.log",
     benchmark:

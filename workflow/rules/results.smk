@@ -82,7 +82,6 @@ rule figure:
     params:
         title=lambda wildcards: FIGURES[wildcards.figure].title,
         caption=lambda wildcards: FIGURES[wildcards.figure].caption,
-        version=VERSION,
     log:
         f"{LOGS}/figures/{{figure}}.log",
     benchmark:
@@ -112,6 +111,7 @@ rule report:
             # not its title, in which Snakemake would look for wildcards
             labels={"page": STUDY.study.name},
         ),
+        f"{RESULTS}/{MANIFEST}",
     log:
         f"{LOGS}/report.log",
     benchmark:
@@ -121,4 +121,4 @@ rule report:
     message:
         "report"
     shell:
-        "{RUN} present.jobs:report {output} {input.crumples} > {log} 2>&1"
+        "{RUN} present.jobs:report {output[0]} {input.crumples} > {log} 2>&1"

@@ -19,7 +19,8 @@ for side in STUDIES.values():
             input:
                 lambda wildcards, side=side, part=part, folder=FOLDER: [
                     f"{folder}/{file}" for file in side.needed(part, wildcards.case)
-                ],
+                ]
+                + make_stale_again(folder),
             output:
                 [f"{FOLDER}/{file}" for file in part.files("{case}")],
             wildcard_constraints:
@@ -27,7 +28,6 @@ for side in STUDIES.values():
             params:
                 study=side.name,
                 part=part.name,
-                version=VERSION,
             priority: part.priority
             log:
                 f"{FOLDER}/logs/{part.name}/{{case}}.log",
@@ -45,11 +45,10 @@ for side in STUDIES.values():
         input:
             [f"{FOLDER}/{file}" for file in side.records()],
         output:
-            [f"{FOLDER}/{file}" for file in side.outputs()],
+            [f"{FOLDER}/{file}" for file in (*side.outputs(), MANIFEST)],
         params:
             study=side.name,
             folder=FOLDER,
-            version=VERSION,
         log:
             f"{FOLDER}/logs/present.log",
         resources:

@@ -42,4 +42,4 @@ signal.signal(signal.SIGINT, signal.SIG_DFL)  # a traceback from here would tell
 said = answers(command)
 if next(said, None):
     sys.exit(status_of(next(said, "")))
-os.execv(sys.executable, [sys.executable, "-P", *command])
+os.execv(sys.executable, [sys.executable, "-P", "-X", "faulthandler", *command])

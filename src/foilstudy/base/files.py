@@ -45,12 +45,22 @@ def written_whole(path: str | Path) -> Iterator[Path]:
 def write_json(record: dict | list[dict], path: str | Path) -> None:
     """Write a record as JSON; arrays become lists, numbers that are not finite null."""
     with written_whole(path) as partial:
-        partial.write_text(json.dumps(_plain(record), indent=1, allow_nan=False) + "\n")
+        partial.write_text(json_text(record), encoding="utf-8")
+
+
+def json_text(record: dict | list[dict]) -> str:
+    """A record as JSON; arrays become lists, numbers that are not finite null."""
+    return json.dumps(_plain(record), indent=1, allow_nan=False) + "\n"
 
 
 def read_json(path: str | Path) -> dict | list[dict]:
     """What `write_json` has written; null is None for single numbers, NaN in lists."""
-    return json.loads(Path(path).read_text(), object_hook=_arrays)
+    return read_json_text(Path(path).read_text("utf-8"))
+
+
+def read_json_text(text: str) -> dict | list[dict]:
+    """What `json_text` has made."""
+    return json.loads(text, object_hook=_arrays)
 
 
 def _plain(value):

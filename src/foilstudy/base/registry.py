@@ -7,14 +7,22 @@ made from it at once.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from difflib import get_close_matches
 from importlib import import_module
 from typing import Any
 
 from foilstudy.base.errors import Refusal
 
-__all__ = ["Choice", "Registry", "UnknownChoice"]
+__all__ = ["Choice", "Registry", "UnknownChoice", "did_you_mean"]
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """``did you mean NAME? `` with the known name closest to another one, or nothing."""
+    folded = {each.casefold(): each for each in known}
+    close = get_close_matches(str(name).casefold(), folded, n=1)
+    return f"did you mean {folded[close[0]]}? " if close else ""
 
 
 class UnknownChoice(Refusal, KeyError):
@@ -73,7 +81,8 @@ class Registry(Mapping[str, Any]):
         """
         if name not in self.choices:
             known = ", ".join(self.choices)
-            raise UnknownChoice(f"{name!r} is not a known {self.kind}; use one of {known}.")
+            hint = did_you_mean(name, self.choices)
+            raise UnknownChoice(f"{name!r} is not a known {self.kind}; {hint}use one of {known}.")
         return self.choices[name]
 
     def __iter__(self) -> Iterator[str]:

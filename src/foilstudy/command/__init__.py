@@ -26,12 +26,18 @@ __all__ = ["app", "main"]
 app = App(
     name="foilstudy",
     help="Statics and dynamics of crumpled foil cylinders: from one config file to a report.",
+    help_epilogue=(
+        "One foil in Python, axial and radial stiffness in N/m; lengths in m (diameter, height, "
+        "gap, thickness):\n\n"
+        "from foilstudy import Foil, crumple\n\n"
+        'print(crumple(Foil(0.2, 0.17, 0.13, 500e-6, "FEP")).stiffness())'
+    ),
     version=lambda: version("foilstudy"),
     result_action="return_value",
 )
 app.register_install_completion_command()
 for command in (check, run, export, report):
-    app.command(command)
+    app.command(command, help_epilogue="")  # else that of the whole
 
 
 def main(words: Sequence[str] | None = None) -> None:

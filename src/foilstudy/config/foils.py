@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from foilstudy.config.sections import Material as MaterialSection
 from foilstudy.config.tasks import CrumpleTask, RefineTask, ResponseTask
-from foilstudy.model.foil import Foil, Material
+from foilstudy.model.foil import Foil
+from foilstudy.model.materials import Material
 from foilstudy.model.patch import Patch
 
 

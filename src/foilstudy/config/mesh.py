@@ -47,7 +47,7 @@ class Mesh(Section):
         "mm",
         "Edge length of the elements; at least 24 fit around the cylinder and 8 along the "
         "shortest one. `auto`: for each thickness the largest that keeps `energy_error_percent`.",
-        5.0,
+        AUTO,
     )
     energy_error_percent: float | None = unit_field(
         "%",
@@ -66,7 +66,7 @@ class Mesh(Section):
     def _default_energy_error(cls, data: Any) -> Any:
         if (
             isinstance(data, Mapping)
-            and data.get("element_size_mm") == AUTO
+            and data.get("element_size_mm", AUTO) == AUTO
             and data.get("energy_error_percent") is None
         ):
             return dict(data) | {"energy_error_percent": ENERGY_ERROR_DEFAULT_PERCENT}
@@ -86,13 +86,18 @@ class Mesh(Section):
             )
         return self
 
-    def resolved(self, radius_mm: float, thickness_um: float) -> Mesh:
-        """The mesh of one foil, its element size a number."""
+    def resolved(self, diameter_mm: float, shortest_mm: float, thickness_um: float) -> Mesh:
+        """The mesh of one thickness, its element size a number.
+
+        With `auto` never too coarse for the diameter and the shortest cylinder of the study.
+        """
         if self.element_size_mm != AUTO:
             return self
         error = self.energy_error_percent / 100
-        size = element_size_for(error, radius_mm * 1e-3, thickness_um * 1e-6)
-        return Mesh(element_size_mm=round(1e3 * size, 9), element=self.element)
+        size = 1e3 * element_size_for(error, diameter_mm / 2 * 1e-3, thickness_um * 1e-6)
+        fitting = min(math.pi * diameter_mm / ELEMENTS_AROUND_MIN, shortest_mm / ELEMENTS_ALONG_MIN)
+        size = size if size <= fitting else float(_floor(fitting))
+        return Mesh(element_size_mm=round(size, 9), element=self.element)
 
 
 @dataclass(frozen=True)
@@ -125,7 +130,7 @@ def mesh_problems(mesh: Mesh, use: MeshUse) -> Iterator[str]:
     # the thinnest foil has the finest mesh, the thickest one the coarsest
     for thickness in sorted({use.thicknesses_um[0], use.thicknesses_um[-1]}):
         which = f" (auto, {thickness:g} um, {mesh.energy_error_percent:g} % of energy error)"
-        size = mesh.resolved(use.diameter_mm / 2, thickness).element_size_mm
+        size = mesh.resolved(use.diameter_mm, use.heights_mm[0], thickness).element_size_mm
         yield from _size_problems(use, size, which)
 
 

@@ -113,6 +113,14 @@ class StudyConfig(Section):
     export: Export = Field(default_factory=Export, description="Files for other tools.")
     report: Report = Field(default_factory=Report, description="Report page.")
 
+    def __repr__(self) -> str:
+        counts = len(self.thicknesses_um), len(self.reference_heights_mm), self.sweep.realisations
+        return "<StudyConfig: {}, {} thicknesses x {} heights x {} realisations>".format(
+            self.study.name, *counts
+        )
+
+    __str__ = __repr__
+
     @model_validator(mode="after")
     def _check_across_sections(self) -> StudyConfig:
         problems = list(self._height_problems()) or list(mesh_problems(self.mesh, self._mesh_use()))
@@ -171,7 +179,8 @@ class StudyConfig(Section):
 
     def mesh_of(self, thickness_um: float) -> Mesh:
         """Mesh of a thickness; with ``auto`` its element size is that of the stated error."""
-        return self.mesh.resolved(self.sheet.diameter_mm / 2, thickness_um)
+        shortest = self.reference_heights_mm[0]
+        return self.mesh.resolved(self.sheet.diameter_mm, shortest, thickness_um)
 
     def _thickness_problems(self) -> Iterator[str]:
         limit = 1e3 * self.sheet.diameter_mm / 2 * THICKNESS_TO_RADIUS_MAX

@@ -8,12 +8,11 @@ of the message looks at a YAML file, not at this code.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from difflib import get_close_matches
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-from foilstudy.base.registry import Registry
+from foilstudy.base.registry import Registry, did_you_mean
 from foilstudy.measure.choices import (
     MODAL_REDUCTIONS,
     REDUCTIONS,
@@ -120,12 +119,10 @@ class Material(Section):
             return {key: getattr(known, key) for key in CONSTANTS} | dict(data)
         missing = [f"material.{key}" for key in CONSTANTS if key not in data]
         if missing:
-            folded = {key.casefold(): key for key in MATERIALS}
-            close = get_close_matches(name.casefold(), folded, n=1)
-            hint = f"did you mean {folded[close[0]]}? " if close else ""
             raise ValueError(
                 f"material.name is {name!r}, which is not a known material, and "
-                f"{', '.join(missing)} {'is' if len(missing) == 1 else 'are'} missing; {hint}"
+                f"{', '.join(missing)} {'is' if len(missing) == 1 else 'are'} missing; "
+                f"{did_you_mean(name, MATERIALS)}"
                 f"use one of {', '.join(MATERIALS)}, or give all four constants."
             )
         return data

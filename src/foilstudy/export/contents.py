@@ -10,10 +10,14 @@ import numpy as np
 
 from foilstudy.base.errors import Refusal
 from foilstudy.measure.dynamics import (
+    CONDITIONS,
     Damping,
     DynamicsOptions,
+    EvenGrid,
     ReducedModel,
+    accelerance,
     interface_dynamic_stiffness,
+    receptance,
 )
 from foilstudy.model.patch import RING_ROWS, knot_points, refine
 from foilstudy.pipeline.shape import Shape
@@ -26,28 +30,23 @@ polynomial through its corners, edge middles and middle."""
 
 @dataclass(frozen=True)
 class Contents:
-    """One realisation, ready for any format.
+    """One realisation, ready for any format; what a format does not need is never computed.
 
     Attributes
     ----------
     crumple : Shape
-    model : ReducedModel
-        Of its stress-free structure.
-    damping : Damping
-    frequencies : ndarray
-        Hz, within the validity of the model.
+    options : DynamicsOptions
+        Reduction, band, damping, and how many mode shapes are written as fields.
     provenance : mapping of str to str
         Goes into every file.
-    modes : int
-        Mode shapes, rings clamped, that are written as fields.
     """
 
     crumple: Shape
-    model: ReducedModel
-    damping: Damping
-    frequencies: np.ndarray
+    options: DynamicsOptions
     provenance: Mapping[str, str] = field(default_factory=dict)
-    modes: int = 6
+
+    def __repr__(self) -> str:
+        return f"<Contents: {self.crumple.foil}; {self.options}>"
 
     @classmethod
     def of(
@@ -56,7 +55,12 @@ class Contents:
         options: DynamicsOptions | None = None,
         provenance: Mapping[str, str] | None = None,
     ) -> Contents:
-        """Shape, reduced model and band of a crumple.
+        """Of a crumple, with the dynamics that a study has by default."""
+        return cls(crumple, options or DynamicsOptions(), provenance or {})
+
+    @property
+    def model(self) -> ReducedModel:
+        """Of the stress-free structure.
 
         Raises
         ------
@@ -65,18 +69,54 @@ class Contents:
         SolveError
             If a factorisation or the reduction fails.
         """
-        options = options or DynamicsOptions()
-        model, grid = options.reduced(stress_free_structure(crumple)), options.grid
-        grid = grid[
-            ~(grid > model.valid_to_hz)
-        ]  # a model without an estimate is valid as it stands
-        if grid.size < 2:
-            raise Refusal(
-                f"the {model.method} model is wrong by about {model.error_estimate:.2g} already at "
-                f"{options.lowest_hz:g} Hz; set dynamics.reduction: rational_krylov, or raise "
-                "dynamics.tolerance."
-            )
-        return cls(crumple, model, options.damping, grid, provenance or {}, options.mode_shapes)
+        if isinstance(self._reduced, Exception):
+            raise self._reduced
+        return self._reduced
+
+    @cached_property
+    def _reduced(self) -> ReducedModel | Exception:
+        """The model, or what kept it from being made: no format after the first tries again."""
+        try:
+            model = self.options.reduced(stress_free_structure(self.crumple))
+        except Exception as problem:
+            return problem
+        # a model without an estimate is valid as it stands
+        if (~(self.options.grid > model.valid_to_hz)).sum() >= 2:
+            return model
+        return Refusal(
+            f"the {model.method} model is wrong by about {model.error_estimate:.2g} already at "
+            f"{self.options.lowest_hz:g} Hz; set dynamics.reduction: rational_krylov, or raise "
+            "dynamics.tolerance."
+        )
+
+    @property
+    def damping(self) -> Damping:
+        """Of the frequency responses."""
+        return self.options.damping
+
+    @cached_property
+    def frequencies(self) -> np.ndarray:
+        """Of the dynamic stiffness: the band as far as the model is valid, Hz."""
+        grid = self.options.grid
+        return grid[~(grid > self.model.valid_to_hz)]
+
+    @cached_property
+    def even_grid(self) -> EvenGrid:
+        """Evenly spaced frequencies in the same band, of receptance and accelerance."""
+        return EvenGrid.of(self.model, self.damping, *self.frequencies[[0, -1]])
+
+    @cached_property
+    def receptances(self) -> dict[str, np.ndarray]:
+        """Under each of `CONDITIONS` on the even grid, shape (frequencies, motions, motions)."""
+        arguments = self.model, self.even_grid.frequencies, self.damping
+        return {condition: receptance(*arguments, condition) for condition in CONDITIONS}
+
+    def motion_per_force(self, quantity: str, condition: str) -> np.ndarray:
+        """``receptance`` or ``accelerance`` on the even grid."""
+        values = self.receptances[condition]
+        if quantity == "receptance":
+            return values
+        return accelerance(values, self.even_grid.frequencies)
 
     @cached_property
     def dynamic_stiffness(self) -> np.ndarray:
@@ -95,7 +135,7 @@ class Contents:
 
         Mass-normalised, m/sqrt(kg m2); the rings are at rest.
         """
-        frequencies, shapes = self.model.clamped_modes(self.modes)
+        frequencies, shapes = self.model.clamped_modes(self.options.mode_shapes)
         patch = self.crumple.patch
         control = np.zeros((len(frequencies), *patch.shape))
         inner = shapes.T.reshape(len(frequencies), patch.rows - 2 * RING_ROWS, patch.columns, 3)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 from foilstudy.base.registry import Choice, Registry
 
@@ -19,6 +21,37 @@ class Format(Choice):
 
     filename: str
 
+
+@dataclass(frozen=True)
+class MotionFormat(Format):
+    """Receptance or accelerance under one condition, which its writer takes besides."""
+
+    quantity: str
+    condition: str
+
+    def load(self) -> Callable:
+        """The writer for this quantity and condition."""
+        return partial(super().load(), quantity=self.quantity, condition=self.condition)
+
+
+_QUANTITIES = {"receptance": "displacement per force", "accelerance": "acceleration per force"}
+_CONDITIONS = {"free": "both rings free", "bottom_held": "bottom ring held"}
+_KINDS = {
+    "uff": ("export.universal:write_motion", "Universal File for modal software"),
+    "csv": ("export.table:write_motion", "any spreadsheet"),
+}
+_MOTIONS = {
+    f"{kind}_{quantity}_{condition}": MotionFormat(
+        place,
+        f"{words}, {held}: {opens}",
+        f"{quantity}_{condition}.{kind}",
+        quantity,
+        condition,
+    )
+    for kind, (place, opens) in _KINDS.items()
+    for quantity, words in _QUANTITIES.items()
+    for condition, held in _CONDITIONS.items()
+}
 
 FORMATS = Registry(
     "export format",
@@ -42,6 +75,12 @@ FORMATS = Registry(
             "export.table:write",
             "dynamic stiffness by definition and direction: any spreadsheet",
             "frequency_response.csv",
+        ),
+        **_MOTIONS,
+        "mat_motion": Format(
+            "export.matlab:write_motion",
+            "receptance and accelerance, both rings free and bottom ring held: MATLAB",
+            "motion_per_force.mat",
         ),
         "vtu": Format(
             "export.vtk:write",

@@ -1,4 +1,4 @@
-"""The reduced model for MATLAB: second-order matrices and a state space."""
+"""For MATLAB: the reduced model, second-order and as a state space, and motion per force."""
 
 from __future__ import annotations
 
@@ -8,9 +8,10 @@ import numpy as np
 from scipy.io import savemat
 
 from foilstudy.export.contents import Contents
+from foilstudy.export.motions import QUANTITIES, moving
+from foilstudy.measure.dynamics import CONDITIONS
 from foilstudy.measure.dynamics.damping_matrix import damping_matrix, viscous_coefficients
 from foilstudy.measure.dynamics.structure import INTERFACE
-from foilstudy.measure.stiffness import DOF_NAMES
 
 
 def write(contents: Contents, path: Path) -> None:
@@ -29,9 +30,9 @@ def write(contents: Contents, path: Path) -> None:
         "K": model.stiffness,
         "B": model.interface_map.T,
         "sys": state_space(contents),
-        "motion_names": np.array(DOF_NAMES, dtype=object),
-        "motion_units": np.array(2 * (3 * ["m"] + 3 * ["rad"]), dtype=object),
-        "force_units": np.array(2 * (3 * ["N"] + 3 * ["N m"]), dtype=object),
+        "motion_names": _cells([motion.name for motion in moving("free")]),
+        "motion_units": _cells([motion.unit for motion in moving("free")]),
+        "force_units": _cells([motion.force_unit for motion in moving("free")]),
         "ring_centre_heights_m": np.array(contents.ring_heights),
         "free_eigenfrequencies_Hz": np.sqrt(np.maximum(values, 0.0)) / (2 * np.pi),
         "clamped_eigenfrequencies_Hz": contents.eigenfrequencies,
@@ -44,6 +45,35 @@ def write(contents: Contents, path: Path) -> None:
         "provenance": dict(contents.provenance),
     }
     savemat(path, content, do_compression=True, oned_as="column")
+
+
+def write_motion(contents: Contents, path: Path) -> None:
+    """Write a structure for each condition, with receptance and accelerance (motion, force, f)."""
+    grid = contents.even_grid
+    content = {
+        "frequency_Hz": grid.frequencies,
+        "spacing_Hz": grid.spacing,
+        "sharpest_resonance_Hz": grid.sharpest_hz,
+        "least_half_power_width_Hz": grid.bandwidth_hz,
+        "ring_centre_heights_m": np.array(contents.ring_heights),
+        "damping_model": str(contents.damping),
+        "provenance": dict(contents.provenance),
+    }
+    for condition in CONDITIONS:
+        motions = moving(condition)
+        content[condition] = {
+            "motion_names": _cells([motion.name for motion in motions]),
+            "motion_units": _cells([motion.unit for motion in motions]),
+            "force_units": _cells([motion.force_unit for motion in motions]),
+        } | {
+            quantity: np.moveaxis(contents.motion_per_force(quantity, condition), 0, 2)
+            for quantity in QUANTITIES
+        }
+    savemat(path, content, do_compression=True, oned_as="column")
+
+
+def _cells(texts: list[str]) -> np.ndarray:
+    return np.array(texts, dtype=object)
 
 
 def state_space(contents: Contents) -> dict[str, np.ndarray]:

@@ -1,4 +1,4 @@
-"""The frequency response as a Universal File: dataset 58, function at nodal DOF.
+"""Frequency responses as Universal Files: dataset 58, function at nodal DOF.
 
 Structural Dynamics Research Laboratory, University of Cincinnati, Universal File Formats for Modal
 Analysis Testing. Nodes 1 and 2 are the centres of the bottom and of the top ring.
@@ -6,19 +6,48 @@ Analysis Testing. Nodes 1 and 2 are the centres of the bottom and of the top rin
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from datetime import datetime
 from pathlib import Path
 
-import numpy as np
 import pyuff
 
 from foilstudy.export.contents import Contents
+from foilstudy.export.motions import QUANTITIES, Pair, pairs
 from foilstudy.measure.dynamics import DEFINITIONS, directional_stiffness
-from foilstudy.measure.stiffness import DOF_NAMES
 from foilstudy.measure.stiffness.directional import DIRECTIONS
 
 _FREQUENCY_RESPONSE = 4
-_FREQUENCY, _DISPLACEMENT, _FORCE = 18, 8, 13
-"""Specific data types of an axis."""
+_COMPLEX_SINGLE = 5
+_FREQUENCY = 18
+_ID_LENGTH = 80
+
+
+@dataclass(frozen=True)
+class _Axis:
+    """Numerator or denominator: specific data type and label.
+
+    Units exponents are the format's own for each type and direction; only a function that belongs
+    to no direction has to give them.
+    """
+
+    data_type: int
+    label: str
+
+    def fields(self, record: str, unit: str) -> dict:
+        return {
+            f"{record}_spec_data_type": self.data_type,
+            f"{record}_axis_lab": self.label,
+            f"{record}_axis_units_lab": unit,
+        }
+
+
+_DISPLACEMENT, _FORCE = _Axis(8, "Displacement"), _Axis(13, "Excitation force")
+_MOTION = {"receptance": _DISPLACEMENT, "accelerance": _Axis(12, "Acceleration")}
+_HELD = {
+    "free": "both rings free; node 1 bottom ring centre, node 2 top ring centre",
+    "bottom_held": "bottom ring held in all its motions; node 2 top ring centre",
+}
 
 
 def write(contents: Contents, path: Path) -> None:
@@ -27,25 +56,82 @@ def write(contents: Contents, path: Path) -> None:
     The named ones (definition and direction) are scalars: node 0, direction 0, as the radial one
     belongs to no single pair.
     """
-    file = pyuff.UFF(str(path))
-    sets = [_units(), _nodes(contents)]
+    sets = [_header(contents), _units(), _nodes(contents)]
     full = contents.dynamic_stiffness
-    for i, force in enumerate(DOF_NAMES):
-        for j, motion in enumerate(DOF_NAMES):
-            units = f"{'N' if i % 6 < 3 else 'N m'}/{'m' if j % 6 < 3 else 'rad'}"
-            place = {
-                "rsp_node": 1 + i // 6, "rsp_dir": 1 + i % 6,
-                "ref_node": 1 + j // 6, "ref_dir": 1 + j % 6,
-            }  # fmt: skip
-            name = f"dynamic stiffness: force on {force} per motion {motion}"
-            sets.append(_function(contents, name, units, full[:, i, j]) | place)
+    common = _common(contents) | {
+        "id2": "force per motion, all other motions of both rings held",
+        "id5": "node 1 bottom ring centre, node 2 top ring centre",
+        "x": contents.frequencies,
+        "abscissa_spacing": 0,
+    }
+    for i, j, pair in pairs("free"):
+        force, motion = pair.response, pair.reference
+        sets.append(
+            common
+            | _place(pair)
+            | _FORCE.fields("ordinate", force.force_unit)
+            | _DISPLACEMENT.fields("orddenom", motion.unit)
+            | {
+                "id1": f"dynamic stiffness: force on {force.name} per motion {motion.name}",
+                "data": full[:, i, j],
+            }
+        )
     directional = directional_stiffness(full)
     nowhere = dict.fromkeys(("rsp_node", "rsp_dir", "ref_node", "ref_dir"), 0)
+    exponents = {"ordinate_force_unit_exp": 1, "orddenom_len_unit_exp": 1}
     for d, definition in enumerate(DEFINITIONS):
         for e, direction in enumerate(DIRECTIONS):
-            name = f"{definition} {direction} dynamic stiffness"
-            sets.append(_function(contents, name, "N/m", directional[d, e]) | nowhere)
-    file.write_sets(sets, "overwrite")
+            sets.append(
+                common
+                | nowhere
+                | exponents
+                | _FORCE.fields("ordinate", "N")
+                | _DISPLACEMENT.fields("orddenom", "m")
+                | {
+                    "id1": f"{definition} {direction} dynamic stiffness",
+                    "data": directional[d, e],
+                }
+            )
+    pyuff.UFF(str(path)).write_sets(sets, "overwrite")
+
+
+def write_motion(contents: Contents, path: Path, *, quantity: str, condition: str) -> None:
+    """Write receptance or accelerance of all pairs that move, in single precision."""
+    values = contents.motion_per_force(quantity, condition)
+    common = _common(contents) | {
+        "id2": _HELD[condition],
+        "id5": contents.even_grid.words[:_ID_LENGTH],
+        "x": contents.even_grid.frequencies,
+        "abscissa_spacing": 1,
+        "ord_data_type": _COMPLEX_SINGLE,
+    }
+    sets = [_header(contents), _units(), _nodes(contents)]
+    for i, j, pair in pairs(condition):
+        unit = pair.response.unit + QUANTITIES[quantity]
+        sets.append(
+            common
+            | _place(pair)
+            | _MOTION[quantity].fields("ordinate", unit)
+            | _FORCE.fields("orddenom", pair.reference.force_unit)
+            | {"id1": f"{quantity}: {pair.text}", "data": values[:, i, j]}
+        )
+    pyuff.UFF(str(path)).write_sets(sets, "overwrite", force_double=False)
+
+
+def _header(contents: Contents) -> dict:
+    """Which foil, realisation and commit the file is of."""
+    origin = contents.provenance
+    date, time = (_created(contents) + " NONE").split(" ")[:2]
+    return {
+        "type": 151,
+        "model_name": str(contents.crumple.foil)[:_ID_LENGTH],
+        "description": f"crumpled, seed {origin.get('seed', 'unknown')}"[:_ID_LENGTH],
+        "db_app": f"commit {origin.get('git_commit', 'unknown')}"[:_ID_LENGTH],
+        "program": "foilstudy",
+        "date_db_created": date, "time_db_created": time,
+        "date_db_saved": date, "time_db_saved": time,
+        "date_file_written": date, "time_file_written": time,
+    }  # fmt: skip
 
 
 def _units() -> dict:
@@ -62,25 +148,31 @@ def _nodes(contents: Contents) -> dict:
     )  # fmt: skip
 
 
-def _function(contents: Contents, name: str, units: str, values: np.ndarray) -> dict:
-    """One function; where it belongs is added by the caller."""
+def _place(pair: Pair) -> dict:
+    response, reference = pair.response, pair.reference
+    return {
+        "rsp_node": response.node, "rsp_dir": response.direction,
+        "ref_node": reference.node, "ref_dir": reference.direction,
+    }  # fmt: skip
+
+
+def _common(contents: Contents) -> dict:
+    """What all functions of a file share."""
     return {
         "type": 58,
         "func_type": _FREQUENCY_RESPONSE,
         "binary": 0,
-        "id1": name,
-        "id2": "force per motion, all other motions of both rings held",
-        "id3": contents.provenance.get("created", "NONE")[:80],
-        "id4": str(contents.damping)[:80],
-        "id5": "node 1 bottom ring centre, node 2 top ring centre",
-        "x": contents.frequencies,
-        "data": values,
-        "abscissa_spacing": 0,
+        "id3": _created(contents),
+        "id4": str(contents.damping)[:_ID_LENGTH],
         "abscissa_spec_data_type": _FREQUENCY,
         "abscissa_axis_lab": "Frequency",
         "abscissa_axis_units_lab": "Hz",
-        "ordinate_spec_data_type": _FORCE,
-        "ordinate_axis_lab": "Dynamic stiffness",
-        "ordinate_axis_units_lab": units,
-        "orddenom_spec_data_type": _DISPLACEMENT,
     }
+
+
+def _created(contents: Contents) -> str:
+    """Date and time as the format wants them."""
+    created = contents.provenance.get("created")
+    if created is None:
+        return "NONE"
+    return datetime.fromisoformat(created).strftime("%d-%b-%y %H:%M:%S").upper()

@@ -14,7 +14,7 @@ import scipy.sparse as sparse
 from scipy.linalg import cholesky, eigh, solve_triangular
 from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
 
-from foilstudy.linalg.errors import SolveError
+from foilstudy.linalg.errors import SolveError, refuse_not_finite
 from foilstudy.linalg.factorisation import Factorisation, factorise
 
 _BLOCK = 16
@@ -22,6 +22,14 @@ _SHIFT = 0.45
 """Shift relative to the limit; the middle of the range converges fastest from both sides."""
 _TOLERANCE = 1e-6
 """Residual of a mode relative to its eigenvalue of the shifted inverse."""
+MODES_MAX = 3000
+"""Sought at most: that many take about ten minutes at ten thousand unknowns."""
+_NUDGES = 1.0, 1 + 1e-6, 1 - 1e-6
+"""Factors on a shift; at an eigenvalue nothing can be factored."""
+
+
+class TooManyModes(SolveError):
+    """More modes lie below a limit than are sought."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +40,27 @@ class Modes:
     shapes: np.ndarray
 
 
-def modes_below(stiffness: sparse.csr_matrix, mass: sparse.csr_matrix, limit: float) -> Modes:
+def shifted(
+    stiffness: sparse.csr_matrix, mass: sparse.csr_matrix, shift: float
+) -> tuple[Factorisation, float]:
+    """K - shift M factored, and the shift: moved by a millionth where it is an eigenvalue.
+
+    Raises
+    ------
+    SolveError
+        If the matrix is singular there, too.
+    """
+    for nudge in _NUDGES:
+        try:
+            return factorise((stiffness - nudge * shift * mass).tocsr()), nudge * shift
+        except SolveError as error:
+            problem = error
+    raise problem
+
+
+def modes_below(
+    stiffness: sparse.csr_matrix, mass: sparse.csr_matrix, limit: float, most: int = MODES_MAX
+) -> Modes:
     """All modes of K x = lambda M x with lambda below a positive limit.
 
     Their number is known beforehand from the inertia of K - limit M, so none is missed.
@@ -43,14 +71,25 @@ def modes_below(stiffness: sparse.csr_matrix, mass: sparse.csr_matrix, limit: fl
         Symmetric, the stiffness positive semidefinite, the mass positive definite.
     limit : float
         rad2/s2.
+    most : int
+        Modes that are sought at most.
 
     Raises
     ------
+    TooManyModes
+        If there are more.
     SolveError
         If a factorisation fails or the modes do not converge.
     """
-    count = factorise((stiffness - limit * mass).tocsr()).negative_eigenvalues
-    size = stiffness.shape[0]
+    factor, limit = shifted(stiffness, mass, limit)
+    count, size = factor.negative_eigenvalues, stiffness.shape[0]
+    del factor
+    if count > most:
+        raise TooManyModes(
+            f"{count} modes lie below {np.sqrt(limit) / (2 * np.pi):.4g} Hz, of which at most "
+            f"{most} are sought; lower the cut-off or the highest frequency, or use "
+            "rational_krylov, which needs no modes"
+        )
     if count == 0:
         return Modes(np.empty(0), np.empty((size, 0)))
     if 4 * count > size:  # a Krylov space that finds them would nearly fill the whole
@@ -58,7 +97,8 @@ def modes_below(stiffness: sparse.csr_matrix, mass: sparse.csr_matrix, limit: fl
         return Modes(values, shapes)
     shift = _SHIFT * limit
     capacity = _BLOCK * min(size // _BLOCK, (4 * count) // _BLOCK + 20)
-    basis = _LanczosBasis(factorise((stiffness - shift * mass).tocsr()), mass, capacity)
+    factor, shift = shifted(stiffness, mass, shift)
+    basis = _LanczosBasis(factor, mass, capacity)
     found = np.zeros(0, dtype=bool)
     while basis.size < capacity:
         basis.grow()
@@ -94,6 +134,8 @@ def lowest_modes(
     SolveError
         If they do not converge.
     """
+    for matrix, what in ((stiffness, "the stiffness"), (mass, "the mass")):
+        refuse_not_finite(matrix.data, what)
     size = stiffness.shape[0]
     if 4 * count > size:
         return Modes(

@@ -36,8 +36,8 @@ def backend() -> str:
 
 
 _SINGULAR = 1e12
-"""|A| |x| for a right-hand side of size 1 above which a matrix counts as singular. Sheets between
-rings give up to 1e4, sheets without rings 1e15."""
+"""|A| |x| for a right-hand side of size 1, both scaled to a unit diagonal, above which a matrix
+counts as singular. Sheets between rings give up to 1e4, sheets without rings 1e15."""
 
 
 def factorise(matrix: sparse.csr_matrix, residual_tolerance: float = 1e-8) -> Factorisation:
@@ -48,7 +48,8 @@ def factorise(matrix: sparse.csr_matrix, residual_tolerance: float = 1e-8) -> Fa
     matrix : csr_matrix
         Real or complex symmetric (not Hermitian), both triangles stored.
     residual_tolerance : float
-        Largest accepted relative residual of the check, |A x - b| / (|A| |x|).
+        Largest accepted relative residual of the check, |A x - b| / (|A| |x|), scaled to a unit
+        diagonal: unknowns may have units of their own, such as m and rad.
 
     Raises
     ------
@@ -59,13 +60,23 @@ def factorise(matrix: sparse.csr_matrix, residual_tolerance: float = 1e-8) -> Fa
         factor = PardisoFactorisation(matrix)
     else:
         factor = SuperLUFactorisation(matrix)
-    probe = np.cos(np.arange(matrix.shape[0], dtype=float))
+    sizes = _sizes(matrix)
+    probe = sizes * np.cos(np.arange(matrix.shape[0], dtype=float))
     solution = factor.solve(probe)
-    amplification = abs(matrix).sum(axis=1).max() * np.abs(solution).max()
-    residual = np.abs(matrix @ solution - probe).max() / amplification
+    amplification = (abs(matrix) @ (1 / sizes) / sizes).max() * np.abs(sizes * solution).max()
+    residual = np.abs((matrix @ solution - probe) / sizes).max() / amplification
     if not (residual <= residual_tolerance and amplification <= _SINGULAR):
         raise SolveError(
             f"a {matrix.shape[0]} x {matrix.shape[0]} matrix is singular or badly scaled: relative "
             f"residual {residual:.1e}, amplification {amplification:.1e}"
         )
     return factor
+
+
+def _sizes(matrix: sparse.csr_matrix) -> np.ndarray:
+    """Square roots of the diagonal; of the largest entry of a row where that is zero."""
+    sizes = np.abs(matrix.diagonal())
+    if not sizes.all():
+        largest = abs(matrix).max(axis=1).toarray().ravel()
+        sizes = np.where(sizes > 0, sizes, np.where(largest > 0, largest, 1.0))
+    return np.sqrt(sizes)

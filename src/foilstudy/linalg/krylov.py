@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sparse
 
+from foilstudy.linalg.errors import refuse_not_finite
 from foilstudy.linalg.factorisation import Factorisation
 
 _ROOM = 384
@@ -55,6 +56,8 @@ class BlockKrylov:
         block = inverse.solve(load)
         heavy = self._mass @ block
         lengths = np.sqrt(np.einsum("ij,ij->j", block, heavy))
+        if (lengths <= 0).any():
+            block, heavy, lengths = (x[..., lengths > 0] for x in (block, heavy, lengths))
         block, heavy = block / lengths, heavy / lengths
         # most of it lies in the last two blocks: without that, one pass over all of them will do
         for known, known_heavy in self._last:
@@ -108,7 +111,9 @@ def _orthonormal(block: np.ndarray, heavy: np.ndarray) -> tuple[np.ndarray, np.n
     """
     if not block.shape[1]:
         return block, heavy, 1.0
-    values, vectors = np.linalg.eigh(block.T @ heavy)
+    gram = block.T @ heavy
+    refuse_not_finite(gram, "a block of the Krylov space")
+    values, vectors = np.linalg.eigh(gram)
     kept = values > _DEPENDENT
     turn = vectors[:, kept] / np.sqrt(values[kept])
     return block @ turn, heavy @ turn, float(values[kept].min(initial=1.0))

@@ -13,7 +13,7 @@ from importlib import metadata
 import numpy as np
 import scipy.sparse as sparse
 
-from foilstudy.linalg.errors import SolveError, refuse_complex
+from foilstudy.linalg.errors import SolveError, refuse_complex, refuse_not_finite
 
 _SYMMETRIC_INDEFINITE, _COMPLEX_SYMMETRIC = -2, 6
 _ANALYSE_AND_FACTOR, _FACTOR, _SOLVE, _RELEASE_FACTORS, _RELEASE = 12, 22, 33, 0, -1
@@ -140,6 +140,7 @@ class PardisoFactorisation:
     """
 
     def __init__(self, matrix: sparse.csr_matrix):
+        refuse_not_finite(matrix.data, "the matrix")
         upper = sparse.triu(matrix, format="csr")
         upper.sort_indices()
         self._job, phase = _job_for(upper)
@@ -153,6 +154,7 @@ class PardisoFactorisation:
     def solve(self, rhs: np.ndarray) -> np.ndarray:
         """Solve for one or several right-hand sides, shape (n,) or (n, k)."""
         refuse_complex(rhs, self._job.values.dtype)
+        refuse_not_finite(rhs, "the right-hand side")
         return self._run(_SOLVE, np.asfortranarray(rhs, dtype=self._job.values.dtype))
 
     def _run(self, phase: int, rhs: np.ndarray) -> np.ndarray:

@@ -6,7 +6,7 @@ import numpy as np
 import scipy.sparse as sparse
 from scipy.sparse.linalg import splu
 
-from foilstudy.linalg.errors import SolveError, refuse_complex
+from foilstudy.linalg.errors import SolveError, refuse_complex, refuse_not_finite
 
 
 class SuperLUFactorisation:
@@ -16,6 +16,7 @@ class SuperLUFactorisation:
     """
 
     def __init__(self, matrix: sparse.csr_matrix):
+        refuse_not_finite(matrix.data, "the matrix")
         try:
             self._factor = splu(
                 matrix.tocsc(),
@@ -33,4 +34,5 @@ class SuperLUFactorisation:
     def solve(self, rhs: np.ndarray) -> np.ndarray:
         """Solve for one or several right-hand sides."""
         refuse_complex(rhs, self._dtype)
+        refuse_not_finite(rhs, "the right-hand side")
         return self._factor.solve(np.ascontiguousarray(rhs, dtype=self._dtype))

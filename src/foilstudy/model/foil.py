@@ -1,46 +1,46 @@
-"""What is simulated, as plain data in SI units: material, foil and imperfection."""
+"""What is simulated, as plain data in SI units: foil and imperfection."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+from foilstudy.base.ranges import require_count, require_number
+from foilstudy.model.materials import Material, material
 
-@dataclass(frozen=True)
-class Material:
-    """Isotropic material.
-
-    Attributes
-    ----------
-    youngs_modulus : float
-        Pa.
-    poisson_ratio : float
-    density : float
-        kg/m3.
-    yield_stress : float
-        Pa; only used to report which share of the surface a linear elastic model overloads.
-    name : str
-        For people; it decides nothing.
-    law : str
-        A name of `foilstudy.model.shell.material.LAWS`.
-    """
-
-    youngs_modulus: float
-    poisson_ratio: float
-    density: float
-    yield_stress: float
-    name: str = ""
-    law: str = "elastic"
+DIAMETER_MAX = 10.0
+"""m; a larger one is most likely in millimetres."""
 
 
 @dataclass(frozen=True)
 class Foil:
-    """A foil rolled into a cylinder, to be pushed together into a gap; lengths in m."""
+    """A foil rolled into a cylinder, to be pushed together into a gap; lengths in m.
+
+    Attributes
+    ----------
+    diameter, reference_height : float
+        Of the cylinder before it is crumpled.
+    gap_height : float
+    thickness : float
+    material : Material
+        Or the name of a known one.
+    """
 
     diameter: float
     reference_height: float
     gap_height: float
     thickness: float
     material: Material
+
+    def __post_init__(self):
+        for name in ("reference_height", "gap_height", "thickness"):
+            what = f"{name.replace('_', ' ')} of a foil"
+            require_number(what, getattr(self, name), "m", above=0)
+        require_number("diameter of a foil", self.diameter, "m", above=0, most=DIAMETER_MAX)
+        require_number("thickness of a foil", self.thickness, "m", below=self.diameter / 2)
+        object.__setattr__(self, "material", material(self.material))
+
+    def __repr__(self) -> str:
+        return f"<Foil: {self}>"
 
     def __str__(self) -> str:
         return (
@@ -86,6 +86,12 @@ class Imperfection:
     amplitude: float = 10e-6
     correlation_length: float = 0.0
     seed: int = 0
+
+    def __post_init__(self):
+        require_number("amplitude of an imperfection", self.amplitude, "m", least=0)
+        length = self.correlation_length
+        require_number("correlation length of an imperfection", length, "m", least=0)
+        require_count("seed of an imperfection", self.seed, 0)
 
     def stream(self, foil: Foil) -> tuple[int, int, int]:
         """Key of the random stream: of seed, thickness (nm) and height (um), and nothing else.

@@ -1,4 +1,4 @@
-"""Isotropic foil materials known by name.
+"""Isotropic foil materials, and those known by name.
 
 Room-temperature data-sheet values; a foil differs from its data sheet by ten per cent and more
 (grade, rolling direction, rate), so measured constants are always the better choice. A material
@@ -10,9 +10,51 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from foilstudy.model.foil import Material
+from foilstudy.base.errors import Refusal
+from foilstudy.base.ranges import require_number
+from foilstudy.base.registry import did_you_mean
 
-__all__ = ["MATERIALS", "MaterialConstants", "material"]
+__all__ = ["MATERIALS", "Material", "MaterialConstants", "material"]
+
+
+@dataclass(frozen=True)
+class Material:
+    """Isotropic material.
+
+    Attributes
+    ----------
+    youngs_modulus : float
+        Pa.
+    poisson_ratio : float
+    density : float
+        kg/m3.
+    yield_stress : float
+        Pa; only used to report which share of the surface a linear elastic model overloads.
+    name : str
+        For people; it decides nothing.
+    law : str
+        A name of `foilstudy.model.shell.material.LAWS`.
+    """
+
+    youngs_modulus: float
+    poisson_ratio: float
+    density: float
+    yield_stress: float
+    name: str = ""
+    law: str = "elastic"
+
+    def __post_init__(self):
+        require_number("Young's modulus of a material", self.youngs_modulus, "Pa", above=0)
+        require_number("Poisson's ratio of a material", self.poisson_ratio, above=-1, most=0.5)
+        require_number("density of a material", self.density, "kg/m3", above=0)
+        require_number("yield stress of a material", self.yield_stress, "Pa", above=0)
+
+    def __repr__(self) -> str:
+        return (
+            f"<Material: {self.name or 'without a name'}, {1e-6 * self.youngs_modulus:g} MPa, "
+            f"Poisson {self.poisson_ratio:g}, {self.density:g} kg/m³, yield "
+            f"{1e-6 * self.yield_stress:g} MPa, {self.law}>"
+        )
 
 
 @dataclass(frozen=True)
@@ -110,14 +152,19 @@ MATERIALS: dict[str, MaterialConstants] = {
 }
 
 
-def material(name: str) -> Material:
-    """A known material in SI units.
+def material(name: str | Material) -> Material:
+    """A known material in SI units; a material is returned as it is.
 
     Raises
     ------
-    ValueError
+    Refusal
         Naming the known ones.
     """
+    if isinstance(name, Material):
+        return name
     if name not in MATERIALS:
-        raise ValueError(f"{name!r} is not a known material; use one of {', '.join(MATERIALS)}.")
+        raise Refusal(
+            f"{name!r} is not a known material; {did_you_mean(name, MATERIALS)}use one of "
+            f"{', '.join(MATERIALS)}, or a Material with constants of your own."
+        )
     return MATERIALS[name].material(name)

@@ -24,7 +24,12 @@ SLENDERNESS_MAX = 1.0
 
 def expected_energy_error(size: float, radius: float, thickness: float) -> float:
     """Relative error of the strain energy of a crumple, lengths in m."""
-    return ERROR_COEFFICIENT * (size / math.sqrt(radius * thickness)) ** ERROR_ORDER
+    return energy_error_at(size / math.sqrt(radius * thickness))
+
+
+def energy_error_at(slenderness):
+    """The same of the element size over sqrt(R t); a number or an array."""
+    return ERROR_COEFFICIENT * slenderness**ERROR_ORDER
 
 
 def element_size_for(error: float, radius: float, thickness: float) -> float:

@@ -14,6 +14,8 @@ from functools import lru_cache
 
 import numpy as np
 
+from foilstudy.base.ranges import require_number
+
 RING_ROWS = 2
 """Control rows owned by a clamped ring."""
 
@@ -46,6 +48,8 @@ class Patch:
         scaling: with 251 or 503 elements, primes next to 2.5 and 1.25 mm, a step takes twice the
         time.
         """
+        for what, length in (("diameter", diameter), ("height", height), ("element", element_size)):
+            require_number(f"{what} of a cylinder's patch", length, "m", above=0)
         around = _nearest_smooth(np.pi * diameter / element_size)
         along = round(height / element_size)
         return cls(around, along, np.pi * diameter / around, height / along)

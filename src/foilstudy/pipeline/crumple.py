@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from foilstudy.base.errors import Refusal
 from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.model.imperfections.cylinder import imperfect_cylinder
 from foilstudy.pipeline.crumpled import Crumpled, Recipe
@@ -22,6 +23,7 @@ def crumple(
     ----------
     foil : Foil
     mesh : Mesh, optional
+        By default `Mesh.resolving` the foil.
     imperfection : Imperfection, optional
         Its seed chooses the realisation.
     method : Method, optional
@@ -33,8 +35,9 @@ def crumple(
 
     Raises
     ------
-    ValueError
-        If the mesh cannot follow the imperfection, or a name is unknown.
+    Refusal
+        If the foil fits its gap as it is, the mesh cannot follow the imperfection, or a name is
+        unknown.
     """
     start = uncrumpled(foil, mesh, imperfection, method)
     arrival = start.method.path.follow(start.problem(), foil.shortening)
@@ -48,7 +51,14 @@ def uncrumpled(
     method: Method | None = None,
 ) -> Crumpled:
     """The imperfect cylinder from which `crumple` starts."""
-    recipe = Recipe(mesh or Mesh(), imperfection or Imperfection(), method or Method())
+    if foil.shortening <= 0:
+        raise Refusal(
+            f"the reference height of a foil is {foil.reference_height:g} m, in a gap of "
+            f"{foil.gap_height:g} m; give one above the gap height."
+        )
+    recipe = Recipe(
+        mesh or Mesh.resolving(foil), imperfection or Imperfection(), method or Method()
+    )
     patch = recipe.mesh.patch(foil)
     reference = imperfect_cylinder(patch, foil, recipe.imperfection)
     element = recipe.mesh.element_at_work()

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Self
 
+from foilstudy.base.ranges import require_number
 from foilstudy.base.spec import choice_field
 from foilstudy.measure.choices import STRESS_REMOVALS
 from foilstudy.measure.stiffness.stress_removal import Reset, StressRemoval
 from foilstudy.model.foil import Foil
+from foilstudy.model.mesh_size import element_size_for
 from foilstudy.model.patch import Patch
 from foilstudy.model.shell.elements import ELEMENTS
 from foilstudy.model.shell.elements.protocol import Element
@@ -30,8 +33,20 @@ class Mesh:
         A name of `foilstudy.model.shell.elements.ELEMENTS`.
     """
 
-    element_size: float = 5e-3
+    element_size: float
     element: str = "corner"
+
+    def __post_init__(self):
+        require_number("element size of a mesh", self.element_size, "m", above=0)
+        ELEMENTS.choice(self.element)
+
+    @classmethod
+    def resolving(cls, foil: Foil, energy_error: float = 0.1) -> Self:
+        """The coarsest mesh that keeps an expected relative error of the crumple's strain energy.
+
+        See `foilstudy.model.mesh_size`.
+        """
+        return cls(element_size_for(energy_error, foil.diameter / 2, foil.thickness))
 
     def patch(self, foil: Foil) -> Patch:
         """The patch of a foil."""
@@ -56,3 +71,6 @@ class Method:
 
     path: Path = choice_field(PATHS, RelaxationPath)
     stress_removal: StressRemoval = choice_field(STRESS_REMOVALS, Reset)
+
+    def __repr__(self) -> str:
+        return f"<Method: path {self.path.kind}, stress removal {self.stress_removal.kind}>"

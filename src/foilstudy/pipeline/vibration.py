@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foilstudy.linalg import factorise, lowest_modes, modes_below
+from foilstudy.linalg import lowest_modes, modes_below, shifted
 from foilstudy.measure.dynamics import (
     DynamicsOptions,
     ReducedModel,
@@ -94,7 +94,9 @@ def _modes_of(options: DynamicsOptions, model: ReducedModel, structure: Structur
     frequencies, shapes = model.clamped_modes(kept)
     limit = (2 * np.pi * min(model.valid_to_hz, options.highest_hz)) ** 2
     k, m = structure.stiffness.interior, structure.mass.interior
-    count = factorise((k - limit * m).tocsr()).negative_eigenvalues
+    factor, limit = shifted(k, m, limit)
+    count = factor.negative_eigenvalues
+    del factor
     if count != (all_hz < np.sqrt(limit) / (2 * np.pi)).sum():
         all_hz = np.sqrt(modes_below(k, m, limit).eigenvalues) / (2 * np.pi)
         frequencies = frequencies[:0]

@@ -8,7 +8,7 @@ from types import MappingProxyType
 from typing import Any
 
 from foilstudy.config import Isolation
-from foilstudy.model.foil import Material
+from foilstudy.model.materials import Material
 
 
 def configuration(cube) -> Mapping[str, Any]:

@@ -2,9 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+
+import numpy as np
+
+from foilstudy.base.errors import Refusal
+from foilstudy.base.record import read_attributes
+from foilstudy.config.model import overlength_id, thickness_id
+
+CELL = ("thickness", "overlength", "seed")
+_UNKNOWN = "in a cube of a release before 0.4"
 
 
 @dataclass(frozen=True)
@@ -27,17 +37,12 @@ class StudyFiles:
     def found(cls, cube_path: Path) -> StudyFiles:
         """Files of a study as they lie in its folder.
 
-        Records count if crumple and response of every realisation of the cube are there: a picture
-        of a part of the study would pass for the whole.
+        Records count if those of every realisation are there, and are the ones that the cube was
+        gathered from: a picture of a part of the study, or of another, would pass for the whole.
         """
         files = cls(cube_path)
-        crumples = tuple(
-            files.folder / "realisations" / cell / "crumple.nc" for cell in files._cells()
-        )
-        complete = all(
-            path.exists() and path.with_name("response.nc").exists() for path in crumples
-        )
-        return cls(cube_path, crumples if complete else ())
+        crumples = tuple(files._gathered())
+        return cls(cube_path, () if None in crumples else crumples)
 
     @cached_property
     def cube(self):
@@ -67,17 +72,31 @@ class StudyFiles:
         beside = (Path(crumple).with_name("response.nc") for crumple in self.crumple_paths)
         return tuple(path for path in beside if path.exists())
 
+    @property
+    def page(self) -> Path:
+        """The report."""
+        return self.folder / "report.html"
+
     def table(self, name: str) -> Path:
         """Path of a table, named as in `foilstudy.present.statistics.tables.TABLES`."""
         return self.folder / f"{name}.csv"
 
-    def _cells(self):
-        """Paths of the realisations of the cube below ``realisations``."""
-        from foilstudy.config.model import overlength_id, thickness_id
+    def _gathered(self) -> Iterator[Path | None]:
+        """Crumples of the realisations of the cube; None for one that is not as gathered."""
+        for at in np.ndindex(self.cube["status"].shape):
+            cell = self.cube.isel(dict(zip(CELL, at, strict=True)))
+            thickness, height = float(cell["thickness"]), float(cell["reference_height"])
+            place = thickness_id(thickness), overlength_id(height), str(int(cell["seed"]))
+            folder = Path(self.folder, "realisations", *place)
+            there = all(
+                _digest(folder / f"{part}.nc") == cell.get(f"{part}_digest", _UNKNOWN)
+                for part in ("crumple", "response")
+            )
+            yield folder / "crumple.nc" if there else None
 
-        for thickness in self.cube["thickness"].values:
-            for height in self.cube["reference_height"].values:
-                for seed in self.cube["seed"].values:
-                    yield Path(
-                        thickness_id(float(thickness)), overlength_id(float(height)), str(seed)
-                    )
+
+def _digest(path: Path) -> str | None:
+    try:
+        return read_attributes(path)["digest"]
+    except Refusal:
+        return None

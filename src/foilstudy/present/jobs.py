@@ -16,6 +16,7 @@ import foilstudy.plot.render
 from foilstudy.present.figures import draw_figures
 from foilstudy.present.files import StudyFiles
 from foilstudy.present.report import write_report
+from foilstudy.present.shown import note_origin, shown
 from foilstudy.present.statistics.tables import write_tables
 
 
@@ -31,5 +32,7 @@ def figure(name: str, results: Path, *crumples: Path) -> None:
 
 
 def report(page: Path, *crumples: Path) -> None:
-    """The page of a study, beside its cube."""
-    write_report(StudyFiles(page.with_name("cube.nc"), crumples), page)
+    """The page of a study, beside its cube, and the manifest of all that is shown of it."""
+    files = StudyFiles(page.with_name("cube.nc"), crumples)
+    write_report(files, page)
+    note_origin(files, shown(files))

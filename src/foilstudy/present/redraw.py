@@ -8,6 +8,7 @@ from pathlib import Path
 from foilstudy.present.figures import FIGURES, FigureSpec, draw_figures
 from foilstudy.present.files import StudyFiles
 from foilstudy.present.report import write_report
+from foilstudy.present.shown import note_origin
 from foilstudy.present.statistics.tables import write_tables
 
 
@@ -39,7 +40,7 @@ def redraw(results: str | Path) -> Redrawn:
     results : str or Path
         Folder of a study, ``results/NAME``, or its ``cube.nc``. Figures of shapes, histories and
         modes need the records of all its realisations, ``realisations/*/*/*/crumple.nc`` and
-        ``response.nc`` beside them.
+        ``response.nc`` beside them, those that the cube was gathered from.
 
     Raises
     ------
@@ -53,7 +54,8 @@ def redraw(results: str | Path) -> Redrawn:
     kept = [name for name in missing if any(files.figures.glob(f"{name}.*"))]
     written = write_tables(files.cube, files.folder)
     written += draw_figures(drawn, files, files.figures)
-    written.append(write_report(files, files.folder / "report.html"))
+    written.append(write_report(files, files.page))
+    note_origin(files, written)
     return Redrawn(written, kept, [name for name in missing if name not in kept])
 
 

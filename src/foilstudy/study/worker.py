@@ -8,6 +8,7 @@ and ends as the job ends. Where it finds no worker, it runs the job in a process
 from __future__ import annotations
 
 import ctypes
+import faulthandler
 import gc
 import json
 import os
@@ -179,6 +180,7 @@ def _carried_out(order: dict, streams: list[int]) -> int:
         for number, stream in enumerate(streams):
             os.dup2(stream, number)
         os.closerange(_STANDARD_STREAMS, os.sysconf("SC_OPEN_MAX"))  # of worker and other jobs
+        faulthandler.enable()  # a crash in native code says in which line of ours
         signal.signal(signal.SIGINT, signal.default_int_handler)
         signal.signal(signal.SIGTERM, signal.SIG_DFL)
         os.chdir(order["folder"])

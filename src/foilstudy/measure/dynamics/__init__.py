@@ -8,6 +8,13 @@ from foilstudy.measure.dynamics.damping import (
     StructuralDamping,
 )
 from foilstudy.measure.dynamics.options import DynamicsOptions
+from foilstudy.measure.dynamics.receptance import (
+    CONDITIONS,
+    EvenGrid,
+    accelerance,
+    receptance,
+    resonances,
+)
 from foilstudy.measure.dynamics.reduction import ReducedModel, Reduction
 from foilstudy.measure.dynamics.reductions import CraigBampton, Guyan, HintzHerting, RationalKrylov
 from foilstudy.measure.dynamics.response import (
@@ -16,16 +23,19 @@ from foilstudy.measure.dynamics.response import (
     dynamic_stiffness,
     frequency_grid,
     interface_dynamic_stiffness,
+    interface_receptance,
     relative_error,
 )
 from foilstudy.measure.dynamics.structure import Structure
 from foilstudy.measure.dynamics.truth import full_order
 
 __all__ = [
+    "CONDITIONS",
     "CraigBampton",
     "DEFINITIONS",
     "Damping",
     "DynamicsOptions",
+    "EvenGrid",
     "Guyan",
     "HintzHerting",
     "ModalDamping",
@@ -36,12 +46,16 @@ __all__ = [
     "Structure",
     "StructuralDamping",
     "Wanted",
+    "accelerance",
     "directional_stiffness",
     "eigenfrequency_errors",
     "dynamic_stiffness",
     "frequency_grid",
     "full_order",
     "interface_dynamic_stiffness",
+    "interface_receptance",
+    "receptance",
     "relative_error",
     "residual_estimate",
+    "resonances",
 ]

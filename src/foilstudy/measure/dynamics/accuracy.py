@@ -6,10 +6,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from foilstudy.base.ranges import require_number
 from foilstudy.linalg import mass_orthonormal
 from foilstudy.measure.dynamics.damping import Damping, ModalDamping
 from foilstudy.measure.dynamics.reduction import ReducedModel, project
-from foilstudy.measure.dynamics.response import dynamic_stiffness, relative_error
+from foilstudy.measure.dynamics.response import dynamic_stiffness, relative_error, require_band
 from foilstudy.measure.dynamics.structure import INTERFACE, Structure
 
 
@@ -33,11 +34,8 @@ class Wanted:
     damping: Damping = ModalDamping(0.05)
 
     def __post_init__(self):
-        if not 0 < self.lowest_hz < self.highest_hz < np.inf:
-            raise ValueError(
-                f"a band from {self.lowest_hz:g} to {self.highest_hz:g} Hz is none; give two "
-                "positive, rising frequencies."
-            )
+        require_number("tolerance of a reduction", self.tolerance, above=0, below=1)
+        require_band(self.lowest_hz, self.highest_hz)
 
     def checked_at(self, count: int) -> np.ndarray:
         """Frequencies at which the error is estimated, Hz: closer where modes are closer."""

@@ -7,6 +7,8 @@ from typing import Protocol
 
 import numpy as np
 
+from foilstudy.base.ranges import require_number
+
 
 class Damping(Protocol):
     """How an eigenmode of squared angular eigenfrequency lambda dissipates."""
@@ -38,6 +40,9 @@ class ModalDamping:
     kind = "modal"
     ratio: float
 
+    def __post_init__(self):
+        require_number("share of the critical damping", self.ratio, least=0, below=1)
+
     @classmethod
     def of_share(cls, share: float, between_hz: tuple[float, float] | None = None) -> ModalDamping:
         """From a share of the critical damping."""
@@ -58,6 +63,9 @@ class StructuralDamping:
 
     kind = "structural"
     loss_factor: float
+
+    def __post_init__(self):
+        require_number("loss factor", self.loss_factor, least=0, below=2)
 
     @classmethod
     def of_share(
@@ -87,6 +95,11 @@ class RayleighDamping:
     mass_coefficient: float
     stiffness_coefficient: float
 
+    def __post_init__(self):
+        for name, unit in (("mass", "1/s"), ("stiffness", "s")):
+            value = getattr(self, f"{name}_coefficient")
+            require_number(f"{name} coefficient of Rayleigh damping", value, unit, least=0)
+
     @classmethod
     def of_share(
         cls, share: float, between_hz: tuple[float, float] | None = None
@@ -105,6 +118,9 @@ class RayleighDamping:
     @classmethod
     def between(cls, ratio: float, lower_hz: float, upper_hz: float) -> RayleighDamping:
         """With a given share of critical damping at two frequencies, less between them."""
+        require_number("share of the critical damping", ratio, least=0, below=1)
+        require_number("lower frequency of Rayleigh damping", lower_hz, "Hz", above=0)
+        require_number("upper frequency of Rayleigh damping", upper_hz, "Hz", above=lower_hz)
         lower, upper = 2 * np.pi * lower_hz, 2 * np.pi * upper_hz
         beta = 2 * ratio / (lower + upper)
         return cls(beta * lower * upper, beta)

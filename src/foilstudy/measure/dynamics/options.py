@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from foilstudy.base.ranges import require_count, require_number
 from foilstudy.base.spec import choice_field
 from foilstudy.measure.choices import REDUCTIONS, STRUCTURAL_DAMPINGS
 from foilstudy.measure.dynamics.accuracy import Wanted
@@ -46,6 +47,26 @@ class DynamicsOptions:
     eigenfrequencies: int = 20
     mode_shapes: int = 6
 
+    def __post_init__(self):
+        REDUCTIONS.choice(self.reduction)
+        self.wanted  # noqa: B018  # refuses what is no tolerance and no band
+        if self.cutoff_hz is not None:
+            require_number("cut-off of a reduction", self.cutoff_hz, "Hz", above=0)
+        require_count("number of frequencies", self.frequencies, 2)
+        require_count("number of eigenfrequencies", self.eigenfrequencies, 1)
+        require_count("number of mode shapes", self.mode_shapes, 0)
+
+    def __repr__(self) -> str:
+        return (
+            f"<DynamicsOptions: {self.lowest_hz:g} to {self.highest_hz:g} Hz, {self.reduction} to "
+            f"{self.tolerance:g}, {self.damping}>"
+        )
+
+    @property
+    def wanted(self) -> Wanted:
+        """Accuracy and band of the reduced model."""
+        return Wanted(self.tolerance, self.lowest_hz, self.highest_hz, self.damping)
+
     @property
     def grid(self) -> np.ndarray:
         """Frequencies, Hz."""
@@ -59,5 +80,4 @@ class DynamicsOptions:
         SolveError
             If a factorisation or a mode search fails.
         """
-        wanted = Wanted(self.tolerance, self.lowest_hz, self.highest_hz, self.damping)
-        return REDUCTIONS[self.reduction].for_band(wanted, self.cutoff_hz).reduce(structure)
+        return REDUCTIONS[self.reduction].for_band(self.wanted, self.cutoff_hz).reduce(structure)

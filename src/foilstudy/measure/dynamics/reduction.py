@@ -45,6 +45,12 @@ class ReducedModel:
     error_estimate: float = np.nan
     valid_to_hz: float = np.nan
 
+    def __repr__(self) -> str:
+        return (
+            f"<ReducedModel: {self.method}, {self.size} coordinates, valid to "
+            f"{self.valid_to_hz:g} Hz, estimated error {self.error_estimate:.1e}>"
+        )
+
     @property
     def size(self) -> int:
         """Number of coordinates."""
@@ -59,6 +65,12 @@ class ReducedModel:
     def static_stiffness(self) -> np.ndarray:
         """Interface stiffness at zero frequency, shape (12, 12)."""
         return self.stiffness[:INTERFACE, :INTERFACE]
+
+    def fastest_ring_motion(self) -> float:
+        """Largest eigenvalue of the rings with the interior following statically, rad2/s2."""
+        rings = slice(0, INTERFACE)
+        stiffness, mass = self.stiffness[rings, rings], self.mass[rings, rings]
+        return float(eigh(stiffness, mass, eigvals_only=True)[-1])
 
     def clamped_eigenfrequencies(self) -> np.ndarray:
         """All eigenfrequencies with both rings held, ascending, Hz."""

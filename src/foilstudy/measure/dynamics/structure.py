@@ -7,13 +7,20 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sparse
 
+from foilstudy.linalg import SolveError
 from foilstudy.measure.stiffness import InterfaceSystem, StaticCondensation, condense
 
 INTERFACE = 12
 """Motions of the two rings; they are the first coordinates of every reduced model."""
 RIGID_MODES = 6
 _RESISTANCE = 1e-6
-"""Of a rigid motion, relative to the terms that cancel; that of sheets is 1e-9 or less."""
+"""Of a rigid motion, relative to the terms of the condensed stiffness that cancel; that of sheets
+is 1e-9 or less, but for the rounding below."""
+_ROUNDING = 1e-11
+"""The same relative to the terms before condensation, membrane forces that leave a thin foil's
+bending as their difference; rounding made 4e-13 of them at most."""
+_LOST = 1e-2
+"""Resistance over the terms of the condensed stiffness beyond which rounding has eaten that."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +42,10 @@ class Structure:
     static: StaticCondensation
     rigid_motions: np.ndarray
 
+    def __repr__(self) -> str:
+        size = self.stiffness.interior.shape[0] + INTERFACE
+        return f"<Structure: {size} unknowns, {self.rigid_modes} rigid motions>"
+
     @classmethod
     def assembled(
         cls, stiffness: InterfaceSystem, mass: InterfaceSystem, rigid_motions: np.ndarray
@@ -44,20 +55,13 @@ class Structure:
         Raises
         ------
         SolveError
-            If the interior stiffness, rings held, is singular.
+            If the interior stiffness, rings held, is singular, or if the foil is so thin that its
+            stiffness is lost in rounding.
         ValueError
             If a rigid motion of both rings meets resistance.
         """
         static = condense(stiffness)
-        moved = np.abs(rigid_motions)
-        resistance = np.einsum("im,ij,jm->m", rigid_motions, static.stiffness, rigid_motions)
-        terms = np.einsum("im,ij,jm->m", moved, np.abs(static.stiffness), moved)
-        if (np.abs(resistance) > _RESISTANCE * terms).any():
-            raise ValueError(
-                "a rigid motion of both rings meets a resistance of "
-                f"{np.max(np.abs(resistance) / terms):.1e} of its terms: the sheet is held by "
-                "something else than its rings, or a ring's motion is not rigid."
-            )
+        _check_resistance(stiffness.interface, static.stiffness, rigid_motions)
         return cls(stiffness, mass, static, rigid_motions)
 
     @property
@@ -69,6 +73,26 @@ class Structure:
     def rigid_modes(self) -> int:
         """Number of motions without stiffness."""
         return self.rigid_motions.shape[1]
+
+
+def _check_resistance(before: np.ndarray, condensed: np.ndarray, motions: np.ndarray) -> None:
+    """See `Structure.assembled`; the interface stiffness before and after condensation."""
+    moved = np.abs(motions)
+    resistance = np.abs(np.einsum("im,ij,jm->m", motions, condensed, motions))
+    terms, whole = (
+        np.einsum("im,ij,jm->m", moved, np.abs(matrix), moved) for matrix in (condensed, before)
+    )
+    if (resistance > _RESISTANCE * terms + _ROUNDING * whole).any():
+        raise ValueError(
+            f"a rigid motion of both rings meets a resistance of {np.max(resistance / terms):.1e} "
+            "of its terms: the sheet is held by something else than its rings, or a ring's motion "
+            "is not rigid."
+        )
+    if (resistance > _LOST * terms).any():
+        raise SolveError(
+            "the stiffness between the rings is lost in rounding: a rigid motion of both meets "
+            f"{np.max(resistance / terms):.1e} of its terms; use a finer mesh or a thicker foil."
+        )
 
 
 def bordered(system: InterfaceSystem) -> sparse.csr_matrix:

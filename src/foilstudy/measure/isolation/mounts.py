@@ -7,6 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
+from foilstudy.base.ranges import require_number
 from foilstudy.measure.isolation.parallel import two_ended
 
 
@@ -52,13 +53,10 @@ class Spring:
     viscous_damping: float = 0.0
 
     def __post_init__(self) -> None:
-        _require_positive("stiffness of a mount's spring", self.stiffness, "N/m")
+        require_number("stiffness of a mount's spring", self.stiffness, "N/m", above=0)
         for name in ("loss_factor", "viscous_damping"):
-            if not getattr(self, name) >= 0:
-                raise ValueError(
-                    f"The {name} of a mount's spring is {getattr(self, name)!r}, which would feed "
-                    "energy; give zero or more."
-                )
+            value = getattr(self, name)  # a negative one would feed energy
+            require_number(f"{name.replace('_', ' ')} of a mount's spring", value, least=0)
 
     def at(self, frequencies: np.ndarray) -> np.ndarray:
         """Complex stiffness, N/m, at frequencies in Hz."""
@@ -82,8 +80,8 @@ class Spring:
         damping_ratio : float
             Viscous damping over the critical one, c / (2 m omega_0).
         """
-        _require_positive("suspended mass", mass, "kg")
-        _require_positive("suspension frequency", frequency_hz, "Hz")
+        require_number("suspended mass", mass, "kg", above=0)
+        require_number("suspension frequency", frequency_hz, "Hz", above=0)
         omega = 2 * np.pi * frequency_hz
         return cls(mass * omega**2, loss_factor, 2 * damping_ratio * mass * omega)
 
@@ -126,7 +124,7 @@ class ResonantMount:
     internal_mass: float
 
     def __post_init__(self) -> None:
-        _require_positive("internal mass of a mount", self.internal_mass, "kg")
+        require_number("internal mass of a mount", self.internal_mass, "kg", above=0)
 
     @classmethod
     def with_resonance(
@@ -153,8 +151,8 @@ class ResonantMount:
             If no two springs do that, because the mass is below 4 k / omega_i^2; if the static
             spring has a viscous damper, which cannot be divided between two without a choice.
         """
-        _require_positive("internal resonance of a mount", frequency_hz, "Hz")
-        _require_positive("internal mass of a mount", internal_mass, "kg")
+        require_number("internal resonance of a mount", frequency_hz, "Hz", above=0)
+        require_number("internal mass of a mount", internal_mass, "kg", above=0)
         if static.viscous_damping:
             raise ValueError(
                 "The static spring of a resonant mount has a viscous damper, and it is open which "
@@ -182,8 +180,3 @@ class ResonantMount:
         return two_ended(
             lower - lower**2 / between, upper - upper**2 / between, lower * upper / between
         )
-
-
-def _require_positive(what: str, value: float, unit: str) -> None:
-    if not (np.isfinite(value) and value > 0):
-        raise ValueError(f"The {what} is {value!r} {unit}; give a finite value above zero.")

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sparse
 
-from foilstudy.linalg import Factorisation, factorise
+from foilstudy.linalg import Factorisation, SolveError, factorise
 from foilstudy.measure.stiffness.rings import Rings
 
 
@@ -18,6 +18,9 @@ class InterfaceSystem:
     interior: sparse.csr_matrix
     coupling: np.ndarray
     interface: np.ndarray
+
+    def __repr__(self) -> str:
+        return f"<InterfaceSystem: {self.interior.shape[0]} interior unknowns>"
 
     @classmethod
     def split(cls, matrix: sparse.csr_matrix, rings: Rings) -> InterfaceSystem:
@@ -49,6 +52,9 @@ class StaticCondensation:
     constraint_modes: np.ndarray
     factor: Factorisation
 
+    def __repr__(self) -> str:
+        return f"<StaticCondensation: {len(self.constraint_modes)} interior unknowns>"
+
 
 def condense(system: InterfaceSystem) -> StaticCondensation:
     """S = K_bb - K_bi K_ii^-1 K_ib.
@@ -58,7 +64,13 @@ def condense(system: InterfaceSystem) -> StaticCondensation:
     SolveError
         If the interior stiffness is singular to working precision.
     """
-    factor = factorise(system.interior)
+    try:
+        factor = factorise(system.interior)
+    except SolveError as error:
+        raise SolveError(
+            f"the stiffness with held rings is singular to working precision ({error}); is the "
+            "foil too thin for its mesh, use a finer mesh or a thicker foil"
+        ) from error
     modes = -factor.solve(system.coupling)
     stiffness = system.interface + system.coupling.T @ modes
     return StaticCondensation(0.5 * (stiffness + stiffness.T), modes, factor)

@@ -32,6 +32,9 @@ class Rings:
     boundary: np.ndarray
     motion: np.ndarray
 
+    def __repr__(self) -> str:
+        return f"<Rings: own {self.boundary.size} unknowns, {self.interior.size} are free>"
+
     @classmethod
     def of(cls, patch: Patch, points: np.ndarray) -> Rings:
         """Rings of a shape; a ring's centre lies on the axis of the patch at the edge's height."""

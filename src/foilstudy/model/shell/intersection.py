@@ -18,7 +18,14 @@ def self_crossing_share(surface: np.ndarray) -> float:
     -------
     float
         Between 0 and 1. Quadrilaterals that share a corner are not tested against each other.
+
+    Raises
+    ------
+    ValueError
+        If a point is not finite, or if all points coincide.
     """
+    if not (np.isfinite(surface).all() and np.ptp(surface) > 0):
+        raise ValueError("the surface has points that are not finite, or no extent")
     _, rows, columns = surface.shape
     points = surface.reshape(3, -1).T
     corner = np.arange(rows * columns).reshape(rows, columns)

@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from foilstudy.base.ranges import require_number
 from foilstudy.model.patch import Patch
 from foilstudy.model.shell.geometry import reference_geometry
 from foilstudy.model.shell.material import Law
@@ -28,7 +29,7 @@ class Section:
     Raises
     ------
     ValueError
-        If the control points do not fit the patch.
+        If the control points do not fit the patch, or the thickness is not positive.
     """
 
     patch: Patch
@@ -37,12 +38,20 @@ class Section:
     law: Law
 
     def __post_init__(self) -> None:
+        require_number("thickness of a shell", self.thickness, "m", above=0)
         if self.reference.shape != self.patch.shape:
             raise ValueError(
                 f"control points have shape {self.reference.shape}, the patch needs "
                 f"{self.patch.shape}"
             )
         object.__setattr__(self, "reference", np.ascontiguousarray(self.reference))
+
+    def __repr__(self) -> str:
+        around, along = self.patch.elements_around, self.patch.elements_along
+        return (
+            f"<Section: {1e6 * self.thickness:g} µm, {around} x {along} elements, "
+            f"{type(self.law).__name__}>"
+        )
 
     @cached_property
     def forms(self) -> np.ndarray:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sparse
 
-from foilstudy.model.foil import Material
+from foilstudy.model.materials import Material
 from foilstudy.model.patch import Patch
 from foilstudy.model.shell.elements.corner import Corner
 from foilstudy.model.shell.elements.protocol import Element
@@ -23,6 +23,10 @@ class Energies:
     membrane: float
     bending: float
     stabilisation: float
+
+    def __repr__(self) -> str:
+        parts = f"{self.membrane:.4g}, {self.bending:.4g}, {self.stabilisation:.4g}"
+        return f"<Energies: membrane, bending, stabilisation {parts} J>"
 
     @property
     def total(self) -> float:
@@ -48,12 +52,15 @@ class Shell:
         self.element = Corner() if element is None else element
         self._kernel = self.element.kernel(section)
 
+    def __repr__(self) -> str:
+        return f"<Shell: {self.section}, {self.element.name}>"
+
     @classmethod
     def elastic(
         cls,
         patch: Patch,
         reference: np.ndarray,
-        material: Material,
+        material: Material | str,
         thickness: float,
         element: Element | None = None,
     ) -> Shell:

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from foilstudy.model.foil import Foil, Material
+from foilstudy.model.foil import Foil
+from foilstudy.model.materials import Material
 from foilstudy.model.patch import cylinder_control_points
 from foilstudy.model.shell.elements.corner import Corner
 from foilstudy.pipeline.crumpled import Crumpled
@@ -29,7 +30,7 @@ THICKNESS_TO_RADIUS_MAX = 1 / 20
 def sheet_from_grid(
     source: str | Path | np.ndarray | SurfaceGrid,
     thickness: float,
-    material: Material,
+    material: Material | str,
     limits: Limits = DEFAULT_LIMITS,
 ) -> Crumpled:
     """A crumpled shape from elsewhere as what the package measures.
@@ -46,6 +47,7 @@ def sheet_from_grid(
     thickness : float
         m.
     material : Material
+        Or the name of a known one.
     limits : Limits
         What is refused.
 

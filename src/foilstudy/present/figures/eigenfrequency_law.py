@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from foilstudy.base.reference import published
 from foilstudy.plot import style
+from foilstudy.present.comparison import comparable
 from foilstudy.present.statistics.cells import samples
 from foilstudy.present.statistics.eigenfrequency import fit_eigenfrequency_law
 
@@ -14,6 +14,8 @@ from foilstudy.present.statistics.eigenfrequency import fit_eigenfrequency_law
 def draw(cube):
     """Draw the law of every thickness, beside the published exponent where there is one."""
     data = samples(cube, "first_eigenfrequency")
+    reference = comparable(cube)
+    published = reference.first_eigenfrequency_exponents if reference else {}
     thicknesses = cube["thickness"].to_numpy()
     heights = cube["reference_height"].to_numpy()
     if not data.value.size:
@@ -28,8 +30,9 @@ def draw(cube):
     for i, (thickness, colour) in enumerate(style.coloured(thicknesses)):
         mine = data.at_thickness(thickness)
         if mine.value.size:
-            end = _series(ax, mine, colour, style.marker(i), np.geomspace(*ax.get_xlim(), 50))
-            labels.append((end, _label(thickness, fit_eigenfrequency_law(mine)), colour))
+            known = published.get(float(thickness))
+            end = _series(ax, mine, colour, style.marker(i), known)
+            labels.append((end, _label(thickness, fit_eigenfrequency_law(mine), known), colour))
     style.value_ticks(ax.xaxis, heights)
     style.decade_ticks(ax.yaxis)
     ax.set_xlabel("reference height (mm)")
@@ -38,8 +41,9 @@ def draw(cube):
     return figure
 
 
-def _series(ax, data, colour, symbol: str, height) -> float:
+def _series(ax, data, colour, symbol: str, published: float | None) -> float:
     """Draw one thickness; return where its label belongs on the vertical axis."""
+    height = np.geomspace(*ax.get_xlim(), 50)
     ax.plot(data.reference_height_mm, data.value, ".", color=colour, ms=4, alpha=0.5)
     for h in np.unique(data.reference_height_mm):
         mean = data.value[data.reference_height_mm == h].mean()
@@ -54,14 +58,13 @@ def _series(ax, data, colour, symbol: str, height) -> float:
         ax.fill_between(
             height, np.exp(low), np.exp(high), color=colour, alpha=style.BAND_ALPHA, lw=0
         )
-    exponent = published().first_eigenfrequency_exponents.get(float(data.thickness_um[0]))
-    if exponent is not None:
+    if published is not None:
         middle = np.exp(np.log(data.reference_height_mm).mean())
-        ax.plot(height, centre * (height / middle) ** exponent, color="k", ls="--", lw=1.2)
+        ax.plot(height, centre * (height / middle) ** published, color="k", ls="--", lw=1.2)
     return float(np.exp(mean[-1]))
 
 
-def _label(thickness: float, fit) -> str:
+def _label(thickness: float, fit, published: float | None) -> str:
     name = style.thickness_label(thickness)
     exponent = fit.value["reference_height"]
     if not np.isfinite(exponent):
@@ -69,7 +72,6 @@ def _label(thickness: float, fit) -> str:
     text = f"{name}: $n$ = {exponent:.2f}"
     if np.isfinite(fit.low["reference_height"]):
         text += f" [{fit.low['reference_height']:.2f}, {fit.high['reference_height']:.2f}]"
-    known = published().first_eigenfrequency_exponents.get(float(thickness))
-    if known is not None:
-        text += f"\npublished {known:.2f} (dashed)"
+    if published is not None:
+        text += f"\npublished {published:.2f} (dashed)"
     return text.replace("-", "−")

@@ -5,8 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from foilstudy.plot import style
-from foilstudy.present.statistics.cells import samples
-from foilstudy.present.statistics.powerlaw import NORMAL_95, fit_power_law
+from foilstudy.present.statistics.powerlaw import (
+    NORMAL_95,
+    fit_power_law,
+    law_samples,
+    shown_source,
+)
 
 
 @style.styled
@@ -16,7 +20,7 @@ def draw(cube):
     figure = style.new_figure(8.2, 6.6)
     axes = figure.subplots(2, len(directions), squeeze=False, height_ratios=[1.25, 1], sharey="row")
     for column, direction in zip(axes.T, directions):
-        data = samples(cube, "static_stiffness", direction=direction)
+        data = law_samples(cube, direction, shown_source(cube, direction))
         fit = fit_power_law(data).fit
         column[0].set_title(direction)
         if not np.isfinite(fit.value["constant"]):

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foilstudy.base.reference import published
 from foilstudy.plot import style
+from foilstudy.present.comparison import comparable
 from foilstudy.present.statistics.cells import measured
 from foilstudy.present.statistics.powerlaw import SIMULATED
 
@@ -49,6 +49,7 @@ def draw(cube):
     thicknesses = cube["thickness"].to_numpy()
     overlengths = cube["overlength"].to_numpy()
     series = [s for s in _SERIES if _known(cube, s)]
+    reference = comparable(cube)
     figure, axes = style.panel_grid(
         len(directions), thicknesses.size, (2.2, 3.0), (2.6, 0.7), sharey="row"
     )
@@ -62,7 +63,9 @@ def draw(cube):
             at = {"direction": direction, "thickness": thickness}
             for s in series:
                 _draw_series(ax, s, measured(cube, SIMULATED[s.source], **at), overlengths)
-            _experiment(ax, direction, thickness, overlengths)
+            if reference:
+                law = reference.power_laws[direction]["experiment"].law
+                _experiment(ax, law, thickness, overlengths)
             ax.set_xlabel(ax.get_xlabel() if direction == directions[-1] else "")
         # Room for the marks at the bottom, which lie in no data range.
         low, high = row[0].get_ylim()
@@ -124,8 +127,7 @@ def _mark_hidden(ax, overlength: float, count: int, series: _Series) -> None:
     ax.text(x, 0, f"{count}", transform=transform, ha=side, va="bottom", fontsize=7)
 
 
-def _experiment(ax, direction: str, thickness: float, overlengths) -> None:
-    law = published().power_laws[direction]["experiment"].law
+def _experiment(ax, law, thickness: float, overlengths) -> None:
     fine = np.geomspace(*style.span(overlengths, 1.15), 60)
     ax.plot(
         fine,

@@ -45,17 +45,19 @@ class FigureSpec:
 
 _STIFFNESS_CAPTION = (
     "{} stiffness of the stress-free crumpled shape, other ring motions held, against overlength; "
-    "one panel per thickness. Dots with band: mean, smallest and largest of the realisations on "
-    "the mesh that was crumpled; open squares with bar: mean of the same shapes at element size "
-    "zero (on the finest mesh where it is not extrapolated) and the stated mesh error; lines: this "
-    "study's fit and the published fits; grey: the uncrumpled cylinder, an upper bound."
+    "one panel per thickness. Squares with bar: mean in the mesh limit (same shapes at element "
+    "size zero, on the finest mesh where it is not extrapolated) and the stated mesh error, open "
+    "where it is not trusted; dots with band: mean, smallest and largest of the realisations on "
+    "the mesh that was crumpled; line: the law of the trusted configurations (± 95 %), dotted a "
+    "fit to all where none is trusted; black and grey, for the published case alone: the published "
+    "fits; light grey: the uncrumpled cylinder, an upper bound."
 )
 
 FIGURES: dict[str, FigureSpec] = {
     "morphology": FigureSpec(
         "Crumpled shapes",
         "First realisation of every configuration, all to one scale, seen from slightly above. "
-        "Colour: radial displacement from the cylinder, on the published scale.",
+        "Colour: radial displacement from the cylinder, up to a quarter of the radius.",
         "morphology",
         ("crumple_paths",),
         png_dpi=100,  # shaded pictures are large
@@ -81,7 +83,7 @@ FIGURES: dict[str, FigureSpec] = {
         "circles: at the stressed equilibrium on the mesh that was crumpled; triangles: the same "
         "after relaxing again on refined meshes, where the study did. Held rings allow values that "
         "are not positive (≤ 0): their number stands at the bottom, by the mark of their series. "
-        "Line: published experiment (fit).",
+        "Line, for the published case alone: published experiment (fit).",
         "prestressed",
         ("cube",),
     ),
@@ -95,14 +97,17 @@ FIGURES: dict[str, FigureSpec] = {
     ),
     "stiffness_map": FigureSpec(
         "Stiffness over overlength and thickness",
-        "Filled contours: mean stiffness, interpolated between the simulated configurations "
-        "(dots). Dashed lines: the fitted power law, which is straight on logarithmic axes.",
+        "Filled contours: mean stiffness in the mesh limit (on the crumpled mesh where no mesh "
+        "error is stated), interpolated between the simulated configurations (dots; ?: not "
+        "trusted). Dashed lines: the power law of the trusted ones, or of all where none is "
+        "trusted; it is straight on logarithmic axes.",
         "stiffness_map",
         ("cube",),
     ),
     "fit_quality": FigureSpec(
         "How well the power law holds",
-        "Top: stiffness of every realisation against the value of the fitted law. Bottom: their "
+        "Top: stiffness of every realisation that the law is fitted to (mesh limit, trusted, where "
+        "there is any) against the value of the law. Bottom: their "
         "ratio against overlength; the band holds 95 % of a normal scatter about the law. Dots "
         "that leave the band together show where the law bends.",
         "fit_quality",
@@ -110,7 +115,7 @@ FIGURES: dict[str, FigureSpec] = {
     ),
     "variability": FigureSpec(
         "Scatter over random imperfections",
-        "Coefficient of variation of the stiffness per configuration, with its 95 % confidence "
+        "Coefficient of variation of the stiffness on the crumpled mesh, with its 95 % confidence "
         "interval (modified McKay), against overlength. Line and band: linear regression and its "
         "95 % confidence band.",
         "variability",
@@ -160,8 +165,9 @@ FIGURES: dict[str, FigureSpec] = {
     "eigenfrequency_law": FigureSpec(
         "First eigenfrequency against reference height",
         "First eigenfrequency with both rings clamped. Small dots: realisations; large: mean; "
-        "line and band: fitted power law and its 95 % confidence band; dashed: the published "
-        "exponent, drawn through the middle of the data. Brackets: 95 % confidence interval.",
+        "line and band: fitted power law and its 95 % band; dashed, for the published case alone: "
+        "the published exponent, drawn through the middle of the data. Brackets: 95 % interval, "
+        "clustered by height where the heights depart from the law.",
         "eigenfrequency_law",
         ("cube",),
     ),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 
-from foilstudy.base.reference import published
+from foilstudy.base.reference import colour_scale_mm
 from foilstudy.plot.crumples import RecordedCrumple, read_shape
 from foilstudy.plot.render import COLOUR_MAP, View, render
 from foilstudy.plot.style import PAGE_WIDTH, message_panel, new_figure
@@ -31,14 +31,19 @@ def draw_grid(crumples, column_titles=None, row_titles=None, captions=None):
     """
     rows, columns = len(crumples), max(map(len, crumples), default=0)
     panel_width = min(_LARGEST_PANEL, (PAGE_WIDTH - _ROW_TITLE_WIDTH) / columns)
-    scale = published().colour_scale_mm
-    view = View(pixel_mm=_PANEL_MM / (panel_width * _PIXELS_PER_INCH), colour_scale_mm=scale)
-    pictures = {
-        crumple.path: render(read_shape(crumple), view)
+    shapes = {
+        crumple.path: read_shape(crumple)
         for row in crumples
         for crumple in row
         if crumple is not None and crumple.has_shape
     }
+    radius = max((shape.radius for shape in shapes.values()), default=0.1)
+    radius_mm = float(f"{1e3 * radius:.3g}")
+    scale = colour_scale_mm(radius_mm)
+    # as large a part of the panel, and as many dots, for a small foil as for a large one
+    pixel_mm = radius_mm / 100 * _PANEL_MM / (panel_width * _PIXELS_PER_INCH)
+    view = View(pixel_mm=pixel_mm, colour_scale_mm=scale)
+    pictures = {path: render(shape, view) for path, shape in shapes.items()}
     left, right, bottom, top = _common_extent(pictures.values())
     panel_height = panel_width * (top - bottom) / (right - left) + (0.25 if captions else 0)
 

@@ -4,16 +4,23 @@ from __future__ import annotations
 
 import numpy as np
 
-from foilstudy.base.reference import published
 from foilstudy.plot import style
-from foilstudy.present.statistics.powerlaw import simulated_law
+from foilstudy.present.comparison import comparable
+from foilstudy.present.statistics.powerlaw import (
+    TRUSTED,
+    answering_source,
+    shown_source,
+    simulated_law,
+)
 from foilstudy.present.statistics.summary import stiffness_summary
 
 _MINE, _LIMIT = style.ordered_colours(5)[1:4:2]
 _LEGEND = (
-    "this study: mean, min to max",
-    "this study: fit",
-    "same shapes, mesh limit ± error",
+    "mesh limit, bar: stated error",
+    "mesh limit, not trusted",
+    "law of the mesh limit",
+    "fit to what is not trusted",
+    "crumpled mesh: mean, min to max",
     "uncrumpled cylinder (bound)",
     "published simulation (fit)",
     "published experiment (fit)",
@@ -31,7 +38,9 @@ def draw(cube, direction: str):
     """
     table = stiffness_summary(cube)
     table = table[table["direction"] == direction]
-    fitted = simulated_law(cube, direction)
+    answer = answering_source(cube, direction)
+    fitted = simulated_law(cube, direction, answer or shown_source(cube, direction))
+    reference = comparable(cube)
     thicknesses = cube["thickness"].to_numpy()
     overlengths = cube["overlength"].to_numpy()
     figure, axes = style.wrapped_grid(thicknesses.size, 4, (2.0, 3.6), (4.6, 0.6), sharey=True)
@@ -40,19 +49,34 @@ def draw(cube, direction: str):
         ax.set_title(style.thickness_label(thickness))
         ax.set_yscale("log")
         style.overlength_axis(ax, overlengths)
-        _panel(ax, table[table["thickness_um"] == thickness])
-        _laws(ax, fitted.law, direction, fine, thickness)
+        rows = table[table["thickness_um"] == thickness]
+        _panel(ax, rows)
+        if answer != TRUSTED or rows["trusted"].any():
+            _law(ax, fitted.law, answer is not None, fine, thickness)
+        for kind, law in reference.power_laws[direction].items() if reference else ():
+            _published(ax, law.law, kind, fine, thickness)
     style.decade_ticks(axes[0, 0].yaxis)
     for ax in axes[:, 0]:
         ax.set_ylabel(f"{direction} stiffness (N/m)")
-    by_label = dict(zip(*axes[0, 0].get_legend_handles_labels()[::-1]))
+    by_label = {
+        label: handle
+        for ax in axes.flat
+        for handle, label in zip(*ax.get_legend_handles_labels(), strict=True)
+    }
+    shown = [label for label in _LEGEND if label in by_label]
     figure.legend(
-        [by_label[label] for label in _LEGEND],
-        _LEGEND,
+        [by_label[label] for label in shown],
+        shown,
         loc="outside lower center",
         ncols=3 if axes.shape[1] > 2 else 2,
     )
-    figure.suptitle(_law_text(fitted.fit), fontsize=10.5)
+    title = _law_text(fitted.fit)
+    if np.isfinite(fitted.fit.value["constant"]):
+        if answer is None:
+            title = "no configuration is trusted, and no law is stated"
+        elif answer == TRUSTED:
+            title = f"trusted configurations: {title}"
+    figure.suptitle(title, fontsize=10.5)
     return figure
 
 
@@ -76,42 +100,53 @@ def _panel(ax, rows) -> None:
         yerr=[mean - rows["min"], rows["max"] - mean],
         fmt="o",
         color=_MINE,
-        ms=5.5,
+        mfc="white",
+        ms=4.5,
         elinewidth=1,
         capsize=2,
-        label="this study: mean, min to max",
+        label="crumpled mesh: mean, min to max",
     )
     limit, error = rows["mesh_limit_mean"].to_numpy(), rows["mesh_error_mean"].to_numpy()
-    ax.errorbar(
-        x,
-        limit,
-        # an error as large as the value would leave a logarithmic axis
-        yerr=[np.minimum(error, 0.9 * limit), error],
-        fmt="s",
-        color=_LIMIT,
-        mfc="white",
-        mew=1.4,
-        ms=5.5,
-        elinewidth=1.4,
-        capsize=3.5,
-        label="same shapes, mesh limit ± error",
-    )
+    trusted = rows["trusted"].to_numpy()
+    for chosen, fill, label in (
+        (trusted, _LIMIT, "mesh limit, bar: stated error"),
+        (~trusted, "white", "mesh limit, not trusted"),
+    ):
+        if np.isfinite(error[chosen]).any():
+            ax.errorbar(
+                x[chosen],
+                limit[chosen],
+                # an error as large as the value would leave a logarithmic axis
+                yerr=[np.minimum(error, 0.9 * limit)[chosen], error[chosen]],
+                fmt="s",
+                color=_LIMIT,
+                mfc=fill,
+                mew=1.4,
+                ms=5.5,
+                elinewidth=1.4,
+                capsize=3.5,
+                label=label,
+            )
 
 
-def _laws(ax, law, direction: str, overlength, thickness: float) -> None:
+def _law(ax, law, trusted: bool, overlength, thickness: float) -> None:
     # A single overlength has no law in overlength to draw.
     fit = law.stiffness(overlength, thickness) if np.isfinite(law.beta) else overlength * np.nan
-    ax.plot(overlength, fit, color=_MINE, label="this study: fit")
-    for source, look in (("simulation", "--"), ("experiment", "-.")):
-        other = published().power_laws[direction][source].law
-        ax.plot(
-            overlength,
-            other.stiffness(overlength, thickness),
-            color="k" if source == "simulation" else style.GREY,
-            ls=look,
-            lw=1.3,
-            label=f"published {source} (fit)",
-        )
+    look = {"color": _LIMIT, "label": "law of the mesh limit"}
+    if not trusted:
+        look = {"color": _LIMIT, "ls": ":", "label": "fit to what is not trusted"}
+    ax.plot(overlength, fit, **look)
+
+
+def _published(ax, law, kind: str, overlength, thickness: float) -> None:
+    ax.plot(
+        overlength,
+        law.stiffness(overlength, thickness),
+        color="k" if kind == "simulation" else style.GREY,
+        ls="--" if kind == "simulation" else "-.",
+        lw=1.3,
+        label=f"published {kind} (fit)",
+    )
 
 
 def _law_text(fit) -> str:

@@ -8,8 +8,8 @@ from matplotlib.colors import LogNorm
 from matplotlib.ticker import LogLocator
 
 from foilstudy.plot import style
-from foilstudy.present.statistics.powerlaw import simulated_law
-from foilstudy.present.statistics.summary import stiffness_summary
+from foilstudy.present.statistics.powerlaw import shown_source, simulated_law
+from foilstudy.present.statistics.summary import best_mean, stiffness_summary
 
 _COLOUR_MAP = "cividis"
 _STEPS_PER_DECADE = 4
@@ -19,10 +19,11 @@ _STEPS_PER_DECADE = 4
 def draw(cube):
     """Draw one map per direction with a common colour scale."""
     table = stiffness_summary(cube)
+    table["best"] = best_mean(table)
     directions = list(map(str, cube["direction"].values))
     figure = style.new_figure(style.PAGE_WIDTH, 4.3)
     axes = figure.subplots(1, len(directions), sharey=True, squeeze=False)[0]
-    mean = table["mean"].to_numpy()
+    mean = table["best"].to_numpy()
     mean = mean[np.isfinite(mean)]
     if not mean.size:
         style.message_panel(axes, "no usable realisation in this study")
@@ -34,10 +35,10 @@ def draw(cube):
     thicknesses = cube["thickness"].to_numpy()
     overlengths = cube["overlength"].to_numpy()
     for ax, direction in zip(axes, directions):
-        grid = (
-            table[table["direction"] == direction]
-            .pivot(index="thickness_um", columns="overlength_percent", values="mean")
-            .to_numpy()
+        rows = table[table["direction"] == direction]
+        grid, trusted = (
+            rows.pivot(index="thickness_um", columns="overlength_percent", values=name).to_numpy()
+            for name in ("best", "trusted")
         )
         ax.set_title(f"{direction} stiffness")
         ax.grid(False)
@@ -46,7 +47,8 @@ def draw(cube):
         ax.set_ylim(style.span(thicknesses, 1.3))
         style.value_ticks(ax.yaxis, thicknesses)
         _means(ax, overlengths, thicknesses, grid, levels, norm)
-        _fit(ax, simulated_law(cube, direction).law, levels)
+        _doubts(ax, overlengths, thicknesses, np.isfinite(grid) & ~trusted.astype(bool))
+        _fit(ax, simulated_law(cube, direction, shown_source(cube, direction)).law, levels)
     axes[0].set_ylabel("thickness (µm)")
     bar = figure.colorbar(
         ScalarMappable(norm, _COLOUR_MAP),
@@ -68,6 +70,13 @@ def _means(ax, overlengths, thicknesses, grid, levels, norm) -> None:
     ax.scatter(x, y, c=grid, norm=norm, cmap=_COLOUR_MAP, s=42, edgecolor="white", lw=1, zorder=4)
     failed = ~np.isfinite(grid)
     ax.plot(x[failed], y[failed], "x", color="0.5", ms=8)
+
+
+def _doubts(ax, overlengths, thicknesses, doubted) -> None:
+    for i, j in np.argwhere(doubted):
+        at = overlengths[j], thicknesses[i]
+        ax.plot(*at, "o", color="white", mec="0.3", ms=9, zorder=5)
+        ax.text(*at, "?", ha="center", va="center_baseline", fontsize=8, zorder=6)
 
 
 def _interpolated(overlengths, thicknesses, grid):

@@ -4,10 +4,11 @@ from collections.abc import Mapping, Sequence
 
 from foilstudy.base.numerals import fixed
 from foilstudy.present.report.laws import DirectionLaws, Law
+from foilstudy.present.statistics.powerlaw import LIMIT, PLAIN
 
 _STEPS = (
-    ("simulation", "simulation mesh limit", "refining the same shapes to the mesh limit"),
-    ("simulation", "simulation pre-stressed", "leaving the stress in"),
+    (PLAIN, LIMIT, "refining the same shapes to the mesh limit"),
+    (PLAIN, "simulation pre-stressed", "leaving the stress in"),
     (
         "simulation pre-stressed",
         "simulation pre-stressed refined",
@@ -23,12 +24,13 @@ _ALIKE = 0.005
 def exponent_findings(directions: Sequence[DirectionLaws]) -> list[str]:
     """Say per direction what mesh and pre-stress do to the thickness exponent.
 
-    Every exponent is set beside the published simulation's and experiment's.
+    Where there is something published every exponent is set beside it. Says nothing of a study of
+    which no stiffness is trusted.
     """
     sentences = []
     for item in directions:
         laws = {law.source: law for law in item.laws if law.gamma.known}
-        if "simulation" not in laws:
+        if PLAIN not in laws or item.answer is None:
             continue
         values = ", ".join(
             f"{fixed(law.gamma.value)}{law.gamma.margin} ({_place(law)})" for law in laws.values()
@@ -44,7 +46,7 @@ def exponent_findings(directions: Sequence[DirectionLaws]) -> list[str]:
 
 
 def _place(law: Law) -> str:
-    return law.source.removeprefix("simulation ") if law.source != "simulation" else "crumpled mesh"
+    return law.source.removeprefix("simulation ") if law.source != PLAIN else "crumpled mesh"
 
 
 def _step(laws: Mapping[str, Law], before: float, after: float, name: str) -> str:
@@ -59,4 +61,5 @@ def _step(laws: Mapping[str, Law], before: float, after: float, name: str) -> st
             places["as far from" if abs(gain) < _ALIKE else word].append(f"the {source}")
     verb = "raises" if change > 0 else "lowers"
     where = [f"{word} {' and '.join(names)}" for word, names in places.items() if names]
-    return f"{name.capitalize()} {verb} it by {fixed(abs(change))}: {', '.join(where)}."
+    beside = f": {', '.join(where)}" if where else ""
+    return f"{name.capitalize()} {verb} it by {fixed(abs(change))}{beside}."

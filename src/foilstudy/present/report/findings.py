@@ -20,48 +20,76 @@ from foilstudy.base.numerals import (
 from foilstudy.base.outcome import STATUSES
 from foilstudy.base.reference import Published
 from foilstudy.present.report.health import Health
-from foilstudy.present.report.laws import SIGNIFICANT, Exponent
+from foilstudy.present.report.laws import Exponent
 from foilstudy.present.report.spread import Spread
+from foilstudy.present.statistics.regression import SIGNIFICANT
+from foilstudy.present.statistics.summary import best_mean
 from foilstudy.present.statistics.variability import fit_variability, plain_scatter
 
 
 def stiffness_findings(summary: pd.DataFrame) -> list[str]:
     """Say what the static stiffness table shows, one paragraph per direction.
 
+    Of configurations that are not trusted it says no more than how large the stiffness comes out,
+    and that only where there are no others.
+
     Parameters
     ----------
     summary
         Table ``stiffness_summary.csv``.
     """
+    summary = summary.assign(best=best_mean(summary))
+    mesh = mesh_words(summary)
     paragraphs = []
-    for direction, cells in _measured(summary, "mean"):
-        low, high = cells.loc[cells["mean"].idxmin()], cells.loc[cells["mean"].idxmax()]
+    for direction, cells in _measured(summary, "best"):
+        trusted = cells[cells["trusted"].astype(bool)]
+        shown = trusted if len(trusted) else cells
+        low, high = shown.loc[shown["best"].idxmin()], shown.loc[shown["best"].idxmax()]
         text = (
-            f"The {direction} stiffness, mean of the realisations, runs from "
-            f"{stiffness(low['mean'])} ({_case(low)}) to {stiffness(high['mean'])} ({_case(high)})"
+            f"The {direction} stiffness {mesh}, mean of the realisations{_share(trusted, cells)}, "
+            f"runs from {stiffness(low['best'])} ({_case(low)}) to {stiffness(high['best'])} "
+            f"({_case(high)})"
         )
-        bound = Spread.of(cells["mean"] / cells["cylinder_bound"])
+        bound = Spread.of(trusted["best"] / trusted["cylinder_bound"])
         if bound:
             text += f", {percent_range(bound.lowest, bound.highest)} of the uncrumpled cylinder's"
-        clauses = [clause for clause in (_beside_published(cells), _monotone(cells)) if clause]
+        clauses = [clause for clause in (_beside_published(trusted), _monotone(trusted)) if clause]
         if clauses:
             text += f"; it {'; it '.join(clauses)}"
         paragraphs.append(f"{text}.")
     return paragraphs + _axial_below_radial(summary)
 
 
+def _share(trusted: pd.DataFrame, cells: pd.DataFrame) -> str:
+    """Name the configurations that a finding is of, where these are not all."""
+    if len(trusted) == len(cells):
+        return ""
+    if not len(trusted):
+        return f" in {plural(len(cells), 'configuration')}, none of them trusted"
+    return f" in the {len(trusted)} of {len(cells)} configurations that are trusted"
+
+
+def mesh_words(summary: pd.DataFrame) -> str:
+    """Say on which mesh the best stiffness is known."""
+    stated = summary["mesh_error_mean"].notna()
+    if stated.all():
+        return "in the mesh limit"
+    return "in the mesh limit where it is known" if stated.any() else "on the crumpled mesh"
+
+
 def _beside_published(cells: pd.DataFrame) -> str:
     ratios = [
         f"{number_range(spread.lowest, spread.highest)} times the published {name}"
         for name in ("simulation", "experiment")
-        if (spread := Spread.of(cells[f"ratio_{name}"]))
+        if f"published_{name}" in cells
+        and (spread := Spread.of(cells["best"] / cells[f"published_{name}"]))
     ]
     return f"is {' and '.join(ratios)}" if ratios else ""
 
 
 def _monotone(cells: pd.DataFrame) -> str:
     """Count the steps between neighbouring configurations that follow the trend."""
-    grid = cells.pivot(index="thickness_um", columns="overlength_percent", values="mean")
+    grid = cells.pivot(index="thickness_um", columns="overlength_percent", values="best")
     along_overlength = grid.diff(axis=1).to_numpy()
     along_thickness = grid.diff(axis=0).to_numpy()
     parts = [
@@ -77,13 +105,14 @@ def _monotone(cells: pd.DataFrame) -> str:
 
 def _axial_below_radial(summary: pd.DataFrame) -> list[str]:
     keys = ["thickness_um", "overlength_percent"]
-    grid = summary.pivot(index=keys, columns="direction", values="mean").dropna()
+    trusted = summary[summary["trusted"].astype(bool)]
+    grid = trusted.pivot(index=keys, columns="direction", values="best").dropna()
     if not {"axial", "radial"} <= set(grid.columns) or grid.empty:
         return []
     below = int((grid["axial"] < grid["radial"]).sum())
     return [
         f"The axial stiffness is below the radial one in {below} of "
-        f"{plural(len(grid), 'configuration')}."
+        f"{plural(len(grid), 'trusted configuration')}."
     ]
 
 
@@ -102,7 +131,7 @@ def variability_findings(variability: pd.DataFrame) -> list[str]:
         fit = fit_variability(variability, direction)
         slope, low, high = (1000 * part["overlength"] for part in (fit.value, fit.low, fit.high))
         text = (
-            f"The {direction} coefficient of variation is "
+            f"The {direction} coefficient of variation on the crumpled mesh is "
             f"{percent_range(spread.lowest, spread.highest)}, median {percent(spread.median)}"
         )
         if math.isfinite(low):
@@ -183,10 +212,11 @@ def eigenfrequency_findings(law: pd.DataFrame, cube: xr.Dataset) -> list[str]:
         )
     exponents = []
     for row in law[law["exponent"].notna()].itertuples():
-        exponent = Exponent(row.exponent, row.exponent_se, row.exponent_low, row.exponent_high)
+        exponent = Exponent(row.exponent, row.exponent_low, row.exponent_high)
         text = f"{fixed(exponent.value)}{exponent.margin} at {nominal(row.thickness_um)} µm"
-        if math.isfinite(row.published_exponent):
-            text += f" (published {fixed(row.published_exponent)}{_side(exponent, row)})"
+        published = getattr(row, "published_exponent", math.nan)
+        if math.isfinite(published):
+            text += f" (published {fixed(published)}{_side(exponent, published)})"
         exponents.append(text)
     if exponents:
         sentences.append(
@@ -197,22 +227,22 @@ def eigenfrequency_findings(law: pd.DataFrame, cube: xr.Dataset) -> list[str]:
         if len(bent):
             sentences.append(
                 f"At {', '.join(map(nominal, bent))} µm the heights depart from a power law by "
-                "more than seeds explain, and the interval is too narrow."
+                "more than seeds explain, which the interval allows for (clustered by height)."
             )
     elif spread:
         sentences.append("One reference height alone determines no exponent.")
     return sentences
 
 
-def _side(exponent: Exponent, row) -> str:
+def _side(exponent: Exponent, published: float) -> str:
     """Whether a published exponent lies in the interval of ours; empty without an interval."""
     if not math.isfinite(exponent.low):
         return ""
-    inside = exponent.low <= row.published_exponent <= exponent.high
+    inside = exponent.low <= published <= exponent.high
     return ", inside the interval" if inside else ", outside it"
 
 
-def shape_findings(cube: xr.Dataset, reference: Published) -> list[str]:
+def shape_findings(cube: xr.Dataset, reference: Published | None) -> list[str]:
     """Say how far the crumpled sheets leave the cylinder.
 
     Parameters
@@ -220,18 +250,20 @@ def shape_findings(cube: xr.Dataset, reference: Published) -> list[str]:
     cube
         The study's result cube.
     reference
-        The published results.
+        The published results, where the study is of their case.
     """
     lowest = Spread.of(cube["radial_displacement_min"])
     highest = Spread.of(cube["radial_displacement_max"])
     if not (lowest and highest):
         return ["No realisation left a shape."]
-    published_low, published_high = reference.radial_displacement_range_mm
-    return [
+    text = (
         f"Over all realisations the radial displacement runs from {signed(lowest.lowest, 0)} mm "
-        f"(inward) to {signed(highest.highest, 0)} mm (outward); published: "
-        f"{signed(published_low, 0)} to {signed(published_high, 0)} mm."
-    ]
+        f"(inward) to {signed(highest.highest, 0)} mm (outward)"
+    )
+    if reference:
+        low, high = reference.radial_displacement_range_mm
+        text += f"; published: {signed(low, 0)} to {signed(high, 0)} mm"
+    return [f"{text}."]
 
 
 def health_sentence(health: Health) -> str:

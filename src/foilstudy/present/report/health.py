@@ -1,6 +1,8 @@
 """Whether the study can be trusted: verdicts, limits of the model and costs."""
 
+from contextlib import suppress
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -8,6 +10,8 @@ import pandas as pd
 import xarray as xr
 
 from foilstudy.base.outcome import STATUSES
+from foilstudy.config.model import overlength_id, thickness_id
+from foilstudy.present.configuration import configuration
 from foilstudy.present.report.spread import Spread
 
 _CELL = ("thickness", "overlength", "seed")
@@ -110,7 +114,7 @@ def assess(cube: xr.Dataset, benchmarks: Path | None = None) -> Health:
         configurations=cube.sizes["thickness"] * cube.sizes["overlength"],
         costs=_costs(cube),
         peak_memory_mb=memory.highest if memory else None,
-        jobs=_jobs(benchmarks),
+        jobs=_jobs(benchmarks, cube),
     )
 
 
@@ -173,17 +177,42 @@ def _costs(cube: xr.Dataset) -> tuple[StageCost, ...]:
     )
 
 
-def _jobs(folder: Path | None) -> tuple[dict, ...]:
-    """Sum Snakemake's benchmark tables, one file per job, by the rule that names the folder."""
+def _jobs(folder: Path | None, cube: xr.Dataset) -> tuple[dict, ...]:
+    """Sum Snakemake's benchmark tables, one file per job, by the rule that names the folder.
+
+    Tables of realisations and rules that an earlier configuration had stay around: they do not
+    count, nor does what a killed job has left half-written.
+    """
     if folder is None or not Path(folder).is_dir():
         return ()
-    rows = []
+    cells, rows = _cell_names(cube), []
     for path in sorted(Path(folder).rglob("*.tsv")):
-        rule = path.relative_to(folder).parts[0].removesuffix(".tsv")
-        table = pd.read_csv(path, sep="\t", na_values="-")
-        rows.append({"rule": rule, "wall_s": table["s"].sum()})
+        rule, *rest = path.relative_to(folder).with_suffix("").parts
+        if rest and rule in _RULES_OF_CELLS and not (rest[0] in cells and _in_use(rule, cube)):
+            continue
+        with suppress(ValueError, KeyError):
+            table = pd.read_csv(path, sep="\t", na_values="-")
+            rows.append({"rule": rule, "wall_s": float(table["s"].sum())})
     if not rows:
         return ()
     grouped = pd.DataFrame(rows).groupby("rule", sort=True)
     summary = grouped.agg(jobs=("rule", "size"), wall_s=("wall_s", "sum"))
     return tuple(summary.reset_index().to_dict("records"))
+
+
+_RULES_OF_CELLS = ("crumple", "response", "refine", "export")
+"""Those with a job for each realisation."""
+
+
+def _cell_names(cube: xr.Dataset) -> set[str]:
+    """Realisations of the cube, as the workflow names their benchmark tables."""
+    thicknesses = [thickness_id(float(value)) for value in cube["thickness"].values]
+    heights = [overlength_id(float(value)) for value in cube["reference_height"].values]
+    seeds = [f"{int(value)}" for value in cube["seed"].values]
+    return {"_".join(parts) for parts in product(thicknesses, heights, seeds)}
+
+
+def _in_use(rule: str, cube: xr.Dataset) -> bool:
+    if rule == "refine":
+        return "refined_status" in cube
+    return rule != "export" or bool(configuration(cube).get("export", {}).get("formats"))

@@ -1,18 +1,21 @@
 """The power laws as the page shows them: exponents, verbs, differences and their limits."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
 
 from foilstudy.base.numerals import fixed, number, signed
-from foilstudy.base.reference import PowerLaw
-from foilstudy.present.statistics.powerlaw import NORMAL_95
+from foilstudy.base.reference import DimensionlessLaw, PowerLaw
+from foilstudy.present.statistics.powerlaw import LIMIT, PLAIN, TRUSTED
+from foilstudy.present.statistics.regression import SIGNIFICANT
 
 SOURCES = {
-    "simulation": "This study",
-    "simulation mesh limit": "This study, mesh limit",
+    TRUSTED: "This study, mesh limit, trusted",
+    LIMIT: "This study, mesh limit",
+    PLAIN: "This study, crumpled mesh",
     "simulation pre-stressed": "This study, pre-stressed",
     "simulation pre-stressed refined": "This study, pre-stressed, relaxed again",
     "published simulation": "Published simulation",
@@ -20,16 +23,12 @@ SOURCES = {
 }
 """Sources of a power law, in the order of the table, with their names."""
 
-SIGNIFICANT = 0.05
-"""Probability below which a departure is not left to chance."""
-
 
 @dataclass(frozen=True)
 class Exponent:
-    """One coefficient of a power law, its standard error and its 95 % interval."""
+    """One coefficient of a power law and its 95 % interval."""
 
     value: float
-    std_error: float
     low: float
     high: float
 
@@ -39,10 +38,14 @@ class Exponent:
         return math.isfinite(self.value)
 
     @property
+    def half_width(self) -> float:
+        """Half width of the 95 % interval; NaN when the sample leaves none."""
+        return (self.high - self.low) / 2
+
+    @property
     def margin(self) -> str:
-        """Half width of the 95 % interval; empty when the sample leaves none."""
-        half = (self.high - self.low) / 2
-        return f" ± {fixed(half)}" if math.isfinite(half) else ""
+        """Half width of the 95 % interval in words; empty when the sample leaves none."""
+        return f" ± {fixed(self.half_width)}" if math.isfinite(self.half_width) else ""
 
     @property
     def interval(self) -> str:
@@ -61,7 +64,15 @@ class Exponent:
 
 @dataclass(frozen=True)
 class Law:
-    """A power law of `PowerLaw`'s form, with what the page says about it."""
+    """A power law of `PowerLaw`'s form, with what the page says about it.
+
+    Attributes
+    ----------
+    lack_of_fit_p : float
+        Probability that the configurations follow the law; NaN where it is not known.
+    differences : str
+        How it differs from the one that the others are held against.
+    """
 
     source: str
     name: str
@@ -71,6 +82,7 @@ class Law:
     r2: float
     n: float
     residual_std: float
+    lack_of_fit_p: float
     note: str
     differences: str = ""
 
@@ -92,28 +104,63 @@ class Law:
 
 @dataclass(frozen=True)
 class DirectionLaws:
-    """The laws of one direction; ``simulation`` is the one that answers."""
+    """The laws of one direction, the one that answers first.
+
+    Attributes
+    ----------
+    trusted, known : int
+        Configurations whose stiffness is trusted, and all that have one.
+    scale : tuple of float or None
+        Radius (mm) and Young's modulus (MPa) of the foil, where the configuration tells them.
+    """
 
     direction: str
     laws: tuple[Law, ...]
+    trusted: int
+    known: int
+    scale: tuple[float, float] | None = None
 
     @property
-    def simulation(self) -> Law:
+    def answer(self) -> Law | None:
+        """The law that answers; None where no configuration is trusted."""
+        return self.laws[0] if self.trusted else None
+
+    @property
+    def best(self) -> Law:
+        """The law that answers, or the best one to show, untrusted as it is."""
+        return self.laws[0]
+
+    @property
+    def plain(self) -> Law:
         """This study's law on the crumpled mesh."""
-        return next(law for law in self.laws if law.source == "simulation")
+        return next(law for law in self.laws if law.source == PLAIN)
+
+    @property
+    def dimensionless(self) -> DimensionlessLaw | None:
+        """The answer without units; None where it lacks an exponent, or the foil is not told."""
+        law = self.answer
+        if law is None or self.scale is None or not (law.beta.known and law.gamma.known):
+            return None
+        return law.law.dimensionless(*self.scale)
 
     def law(self, source: str) -> Law | None:
         """The law of one of `SOURCES`; None where the study has none."""
         return next((law for law in self.laws if law.source == source), None)
 
 
-def read_laws(powerlaw: pd.DataFrame, summary: pd.DataFrame) -> tuple[DirectionLaws, ...]:
+def read_laws(
+    powerlaw: pd.DataFrame,
+    summary: pd.DataFrame,
+    scale: tuple[float, float] | None = None,
+) -> tuple[DirectionLaws, ...]:
     """Read the laws of each direction and put their differences into words.
 
     Parameters
     ----------
     powerlaw, summary
         Tables ``powerlaw.csv`` and ``stiffness_summary.csv``.
+    scale
+        Radius (mm) and Young's modulus (MPa) of the foil.
     """
     directions = []
     for direction in powerlaw["direction"].unique():
@@ -121,21 +168,24 @@ def read_laws(powerlaw: pd.DataFrame, summary: pd.DataFrame) -> tuple[DirectionL
         cells = summary[summary["direction"] == direction]
         present = [source for source in SOURCES if source in rows.index]
         laws = {source: _law(source, rows.loc[source]) for source in present}
-        ours = laws["simulation"]
+        trusted, known = int(cells["trusted"].sum()), int((cells["n"] > 0).sum())
+        ours = next(iter(laws.values()))
+        # Beside a law that is not trusted nothing is steeper or flatter.
         named = [
-            law if law is ours else _with_differences(ours, law, cells) for law in laws.values()
+            law if law is ours or not trusted else _with_differences(ours, law, cells)
+            for law in laws.values()
         ]
-        directions.append(DirectionLaws(str(direction), tuple(named)))
+        directions.append(DirectionLaws(str(direction), tuple(named), trusted, known, scale))
     return tuple(directions)
 
 
 def _law(source: str, row: pd.Series) -> Law:
     coefficients = {
-        name: Exponent(*(float(row[f"{name}{part}"]) for part in ("", "_se", "_low", "_high")))
+        name: Exponent(*(float(row[f"{name}{part}"]) for part in ("", "_low", "_high")))
         for name in ("alpha", "beta", "gamma")
     }
     note = row["note"] if isinstance(row["note"], str) else ""
-    numbers = {name: float(row[name]) for name in ("r2", "n", "residual_std")}
+    numbers = {name: float(row[name]) for name in ("r2", "n", "residual_std", "lack_of_fit_p")}
     return Law(source, SOURCES[source], **coefficients, **numbers, note=note)
 
 
@@ -171,7 +221,7 @@ def _difference(name: str, ours: Exponent, other: Exponent) -> str:
     if not (ours.known and other.known):
         return ""
     change = other.value - ours.value
-    margin = NORMAL_95 * math.hypot(ours.std_error, other.std_error)
+    margin = math.hypot(ours.half_width, other.half_width)
     if not math.isfinite(margin):
         return f"{symbol} differs by {signed(change)}"
     if abs(change) <= margin:
@@ -184,62 +234,48 @@ def _geometric_mean(values: pd.Series) -> float:
     return float(np.exp(np.log(values.unique()).mean()))
 
 
-def bend_sentence(powerlaw: pd.DataFrame) -> str:
-    """Warn when the configurations depart from the law; empty when none is known to.
+def scope_of(item: DirectionLaws) -> str:
+    """Say of which stiffness the law that answers is."""
+    if item.answer is None or item.answer.source != TRUSTED:
+        return "mesh limit"
+    return f"mesh limit, the {item.trusted} of {item.known} configurations that are trusted"
 
-    Parameters
-    ----------
-    powerlaw
-        Table ``powerlaw.csv``.
-    """
+
+def bend_sentence(directions: Sequence[DirectionLaws]) -> str:
+    """Warn when configurations depart from the law that answers; empty when none is known to."""
     bent = [
-        f"{row.direction} p {_probability(row.lack_of_fit_p)}"
-        for row in _ours(powerlaw).itertuples()
-        if row.lack_of_fit_p < SIGNIFICANT
+        f"{item.direction} p {_probability(item.answer.lack_of_fit_p)}"
+        for item in directions
+        if item.answer and item.answer.lack_of_fit_p < SIGNIFICANT
     ]
     if not bent:
         return ""
     return (
         "A single power law is an approximation: the configurations depart from it by more than "
-        f"their own scatter explains (lack of fit, {', '.join(bent)}), so the intervals above are "
-        "too narrow."
+        f"their own scatter explains (lack of fit, {', '.join(bent)}), which its intervals allow "
+        "for."
     )
 
 
-def fit_findings(powerlaw: pd.DataFrame) -> list[str]:
-    """Say how well the law describes the realisations, and what it leaves.
-
-    Parameters
-    ----------
-    powerlaw
-        Table ``powerlaw.csv``.
-    """
+def fit_findings(directions: Sequence[DirectionLaws]) -> list[str]:
+    """Say how well the laws that answer describe the realisations."""
     sentences = []
-    for row in _ours(powerlaw).itertuples():
-        if not math.isfinite(row.residual_std):
+    for item in directions:
+        law = item.answer
+        if law is None or not math.isfinite(law.residual_std):
             continue
         text = (
-            f"Realisations scatter about the {row.direction} law by a factor "
-            f"{fixed(math.exp(row.residual_std))} (one standard deviation)"
+            f"Realisations scatter about the {item.direction} law ({_named(law)}) by a factor "
+            f"{fixed(math.exp(law.residual_std))} (one standard deviation)"
         )
-        if math.isfinite(row.lack_of_fit_p):
-            text += f"; lack of fit p {_probability(row.lack_of_fit_p)}"
-        if row.lack_of_fit_p < SIGNIFICANT:
-            errors = [
-                f"{fixed(error)} for {symbol}"
-                for symbol, error in (
-                    ("β", row.beta_se_clustered),
-                    ("γ", row.gamma_se_clustered),
-                )
-                if math.isfinite(error)
-            ]
-            text += f"; standard errors that allow for it are {' and '.join(errors)}"
+        if math.isfinite(law.lack_of_fit_p):
+            text += f"; lack of fit p {_probability(law.lack_of_fit_p)}"
         sentences.append(f"{text}.")
     return sentences
 
 
-def _ours(powerlaw: pd.DataFrame) -> pd.DataFrame:
-    return powerlaw[powerlaw["source"] == "simulation"]
+def _named(law: Law) -> str:
+    return law.name.removeprefix("This study, ")
 
 
 def _probability(p: float) -> str:

@@ -13,15 +13,17 @@ import xarray as xr
 
 from foilstudy.base import numerals
 from foilstudy.base.files import written_whole
-from foilstudy.base.reference import published
 from foilstudy.plot.save import inches_wide
+from foilstudy.present.comparison import comparable, comparison_sentence, studied_case
 from foilstudy.present.configuration import configuration, isolation_options
 from foilstudy.present.figures import FIGURES
 from foilstudy.present.files import StudyFiles
 from foilstudy.present.report import (
+    distrust,
     equilibrium,
     exponents,
     findings,
+    grid,
     isolation,
     laws,
     mesh,
@@ -29,10 +31,16 @@ from foilstudy.present.report import (
     prestress,
     viewer,
 )
+from foilstudy.present.report.alt import alt_text
 from foilstudy.present.report.health import assess
 from foilstudy.present.statistics.tables import TABLES
+from foilstudy.present.statistics.trust import assess_trust
+from foilstudy.study.sweep.origins import physics_codes
 
 TEMPLATES = Path(__file__).parent / "templates"
+
+SCRIPTS = ("enlarge.js", "viewer.js")
+"""Make up the one script of the page."""
 
 SECTIONS = {
     "stiffness": ("stiffness_axial", "stiffness_radial"),
@@ -61,6 +69,7 @@ class Figure:
     id: str
     title: str
     caption: str
+    alt: str
     source: str
     width: int | None
 
@@ -118,23 +127,16 @@ def _content(files: StudyFiles, folder: Path) -> dict:
     health = assess(cube, files.benchmarks)
     settling = equilibrium.assess_equilibrium(cube, config)
     mesh_errors = mesh.assess_mesh(cube)
-    read_laws = laws.read_laws(powerlaw, summary)
+    trust, reference, case = assess_trust(cube), comparable(cube), studied_case(cube)
+    scale = case and (case.diameter_mm / 2, case.youngs_modulus_mpa)
+    read_laws = laws.read_laws(powerlaw, summary, scale)
     chosen = viewer.choose_shapes(files.crumple_paths)
     shapes = viewer.viewer_data(chosen, files.response_paths)
-    script = (TEMPLATES / "viewer.js").read_text("utf-8")
-    return {
-        "title": config.get("report", {}).get("title", "Crumpled foil"),
-        "study": cube.attrs.get("study", ""),
-        "scope": _scope(cube, config),
-        "laws": read_laws,
-        "exponent_words": exponents.exponent_findings(read_laws),
-        "locking_words": mesh.PUBLISHED_LOCKING,
-        "middle": laws.middle_of_sweep(summary),
+    script = "".join((TEMPLATES / name).read_text("utf-8") for name in SCRIPTS)
+    said = {
         "stiffness_words": findings.stiffness_findings(summary),
+        "fit_words": laws.fit_findings(read_laws),
         "prestress_words": prestress.prestress_findings(cube, variability, read_laws),
-        "prestress_rows": prestress.prestress_rows(cube, variability),
-        "relaxed_words": prestress.relaxed_findings(cube),
-        "relaxed_rows": prestress.relaxed_rows(cube),
         "variability_words": findings.variability_findings(variability),
         "dynamic_words": findings.dynamic_findings(cube),
         "overlength_words": modes.overlength_findings(cube),
@@ -143,27 +145,46 @@ def _content(files: StudyFiles, folder: Path) -> dict:
         "isolation_words": isolation.isolation_findings(
             tables["isolation"], isolation_options(cube)
         ),
-        "bend_words": laws.bend_sentence(powerlaw),
-        "fit_words": laws.fit_findings(powerlaw),
+        "mesh_words": [mesh.mesh_sentence(mesh_errors, config)],
+        "stated_error_words": [mesh.stated_error_sentence(mesh_errors)],
+        "shape_words": findings.shape_findings(cube, reference),
+    }
+    return said | {
+        "title": config.get("report", {}).get("title", "Crumpled foil"),
+        "study": cube.attrs.get("study", ""),
+        "scope": _scope(cube, config),
+        "grids": grid.stiffness_grids(summary),
+        "grid_caption": grid.grid_caption(summary),
+        "sure_words": grid.sureness(summary),
+        "banner": distrust.banner(cube, trust),
+        "laws": read_laws,
+        "law_scope": laws.scope_of,
+        "gap_over_diameter": case and case.gap_height_mm / case.diameter_mm,
+        "comparison_words": comparison_sentence(cube),
+        "exponent_words": exponents.exponent_findings(read_laws),
+        "locking_words": mesh.PUBLISHED_LOCKING if reference else "",
+        "middle": laws.middle_of_sweep(summary),
+        "prestress_rows": prestress.prestress_rows(cube, variability),
+        "relaxed_words": prestress.relaxed_findings(cube),
+        "relaxed_rows": prestress.relaxed_rows(cube),
+        "bend_words": laws.bend_sentence(read_laws),
         "mesh": mesh_errors,
-        "mesh_words": mesh.mesh_sentence(mesh_errors, config),
-        "stated_error_words": mesh.stated_error_sentence(mesh_errors),
         "share_words": mesh.share_sentence(config),
         "equilibrium": settling,
         "equilibrium_words": equilibrium.equilibrium_findings(settling),
-        "shape_words": findings.shape_findings(cube, published()),
         "health": health,
         "health_words": findings.health_sentence(health),
-        "figures": _figures(files.figures),
+        "figures": _figures(files.figures, _seen(said)),
         "viewer": shapes,
         "has_records": bool(files.crumple_paths),
-        "gradient": _gradient(),
+        "gradient": _gradient(viewer.colour_table()),
+        "motion_gradient": _gradient(viewer.motion_table()),
         "style": (TEMPLATES / "report.css").read_text("utf-8"),
         "script": script,
         "script_hash": base64.b64encode(hashlib.sha256(script.encode()).digest()).decode(),
         "config": cube.attrs.get("config", ""),
         "provenance": _provenance(cube),
-        "citation": published().citation,
+        "citation": reference and reference.citation,
         "files": _files(files, folder),
     }
 
@@ -206,7 +227,31 @@ def _element_size(section: dict) -> str:
     return f"of {numerals.nominal(size)} mm"
 
 
-def _figures(folder: Path) -> dict[str, list[Figure]]:
+def _seen(said: Mapping[str, list[str]]) -> dict[str, list[str]]:
+    """What the page says of the data of a figure, by its id."""
+    by_direction = {
+        f"stiffness_{direction}": [text for text in said["stiffness_words"] if direction in text]
+        for direction in ("axial", "radial")
+    }
+    sources = {
+        "morphology": "shape_words",
+        "seeds": "shape_words",
+        "stiffness_map": "stiffness_words",
+        "fit_quality": "fit_words",
+        "prestressed": "prestress_words",
+        "variability": "variability_words",
+        "dynamic_stiffness": "dynamic_words",
+        "convergence_high_frequency": "overlength_words",
+        "eigenfrequency_law": "eigenfrequency_words",
+        "modal_density": "modal_density_words",
+        "design_chart": "isolation_words",
+        "transmissibility": "isolation_words",
+        "mesh_error": "stated_error_words",
+    }
+    return by_direction | {name: said[words] for name, words in sources.items()}
+
+
+def _figures(folder: Path, seen: Mapping[str, list[str]]) -> dict[str, list[Figure]]:
     """Embed every figure of the study that there is, by section."""
     stems = {path.stem for path in Path(folder).glob("*") if path.suffix in (".png", ".svg")}
     placed = {stem: name for name, order in SECTIONS.items() for stem in order}
@@ -216,7 +261,9 @@ def _figures(folder: Path) -> dict[str, list[Figure]]:
             entry = FIGURES[stem]
             picture = _picture(Path(folder), stem)
             sections[placed.get(stem, "other")].append(
-                Figure(stem, entry.title, entry.caption, *picture)
+                Figure(
+                    stem, entry.title, entry.caption, alt_text(stem, entry.title, seen), *picture
+                )
             )
     return sections
 
@@ -233,17 +280,28 @@ def _data_address(content: bytes, kind: str) -> str:
     return f"data:image/{kind};base64,{base64.b64encode(content).decode('ascii')}"
 
 
-def _gradient() -> str:
-    """CSS stops of the radial displacement colours, from inward to outward."""
-    return ", ".join("rgb({}, {}, {})".format(*rgb) for rgb in viewer.colour_table()[::17])
+def _gradient(colours) -> str:
+    """CSS stops of a table of colours, from its first to its last."""
+    return ", ".join("rgb({}, {}, {})".format(*rgb) for rgb in colours[::17])
 
 
 def _provenance(cube: xr.Dataset) -> list[tuple[str, str]]:
-    return [
+    rows = [
         (name.replace("_", " "), str(value))
         for name, value in cube.attrs.items()
-        if name != "config"
+        if name not in ("config", "task")  # the one stands below, the other says the same
     ]
+    return [*rows, ("physics since", _physics_since(cube))]
+
+
+def _physics_since(cube: xr.Dataset) -> str:
+    """Whether the code that would crumple and measure today is that of the cube."""
+    if all(cube.attrs.get(name) == code for name, code in physics_codes().items()):
+        return "the code that drew this page crumples and measures as that of the cube"
+    return (
+        "the code that crumples or measures is another than that of the cube: running the study "
+        "again makes its realisations anew"
+    )
 
 
 def _files(files: StudyFiles, folder: Path) -> list[tuple[str, str, str]]:

@@ -9,7 +9,7 @@ import pandas as pd
 import xarray as xr
 
 from foilstudy.base.numerals import fixed, nominal, number, number_range, percent, plural
-from foilstudy.base.reference import published
+from foilstudy.present.comparison import comparable
 from foilstudy.present.report.laws import DirectionLaws
 from foilstudy.present.report.spread import Spread, by_direction, by_thickness
 from foilstudy.present.statistics.cells import measured
@@ -203,9 +203,8 @@ def _ratios(cube: xr.Dataset) -> str:
         if count:
             hidden.append(f"{count} of {n} {direction} values")
     text = (
-        "All other stiffnesses here belong to the stress-free crumpled shape, as in the published "
-        f"work; with the stress left in, the stiffness is {' and '.join(parts)} that value, same "
-        "shape and mesh."
+        "All other stiffnesses here belong to the stress-free crumpled shape; with the stress left "
+        f"in, the stiffness is {' and '.join(parts)} that value, same shape and mesh."
     )
     if not hidden:
         return f"{text} Every pre-stressed value is positive."
@@ -219,7 +218,7 @@ def _laws(directions: Sequence[DirectionLaws]) -> str:
     parts = []
     for item in directions:
         law = item.law("simulation pre-stressed")
-        if law and (law.beta.known or law.gamma.known):
+        if item.answer and law and (law.beta.known or law.gamma.known):
             exponents = [
                 f"{symbol} = {fixed(exponent.value)}{exponent.margin}"
                 for symbol, exponent in (("β", law.beta), ("γ", law.gamma))
@@ -227,7 +226,12 @@ def _laws(directions: Sequence[DirectionLaws]) -> str:
             ]
             fit = f" (R² = {fixed(law.r2, 3)}, n = {law.n:.0f})" if math.isfinite(law.r2) else ""
             parts.append(f"{item.direction} {', '.join(exponents)}{fit}")
-    return f"Power law with the stress left in: {'; '.join(parts)}." if parts else ""
+    if not parts:
+        return ""
+    return (
+        "Power law with the stress left in, of all configurations on the crumpled mesh: "
+        f"{'; '.join(parts)}."
+    )
 
 
 def _scatter(
@@ -247,13 +251,14 @@ def _scatter(
         )
         law = item.law("simulation pre-stressed")
         implied = _implied_scatter(cube, item.direction)
-        if law and math.isfinite(law.residual_std) and math.isfinite(implied):
-            factors = [fixed(math.exp(s)) for s in (law.residual_std, item.simulation.residual_std)]
+        if law and math.isfinite(law.residual_std):
+            factors = [fixed(math.exp(s)) for s in (law.residual_std, item.plain.residual_std)]
             text += (
                 f"; about their laws scatter the pre-stressed stiffness by a factor {factors[0]}, "
-                f"the stress-free one by {factors[1]}, the published experiment by about "
-                f"{fixed(math.exp(implied))}"
+                f"the stress-free one by {factors[1]}"
             )
+            if math.isfinite(implied):
+                text += f", the published experiment by about {fixed(math.exp(implied))}"
         sentences.append(f"{text}.")
     if any("published experiment" in sentence for sentence in sentences):
         sentences.append(
@@ -266,9 +271,13 @@ def _scatter(
 def _implied_scatter(cube: xr.Dataset, direction: str) -> float:
     """Standard deviation of ln k about the published experiment's law, from its R².
 
-    With R² = explained / (explained + residual) variance, over the grid of this study.
+    With R² = explained / (explained + residual) variance, over the grid of this study. NaN where
+    there is nothing published to compare with.
     """
-    experiment = published().power_laws[direction]["experiment"]
+    reference = comparable(cube)
+    if reference is None:
+        return math.nan
+    experiment = reference.power_laws[direction]["experiment"]
     fitted = np.log(
         experiment.law.stiffness(cube["overlength"].values, cube["thickness"].values[:, None])
     )

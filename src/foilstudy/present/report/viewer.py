@@ -8,7 +8,7 @@ import numpy as np
 
 from foilstudy.base.errors import Refusal
 from foilstudy.base.record import read_record
-from foilstudy.base.reference import published
+from foilstudy.base.reference import colour_scale_mm
 from foilstudy.plot.crumples import RecordedCrumple, catalogue
 from foilstudy.plot.modes import RecordedModes, recorded_modes
 from foilstudy.plot.render import COLOUR_MAP
@@ -22,6 +22,7 @@ MODE_NODES_MAX = 7_000
 _QUANTA = 32767
 _MODE_QUANTA = 127
 _COLOURS = 256
+_MOTION_MAP = "YlOrRd"
 
 
 def choose_shapes(paths: Iterable[Path]) -> list[RecordedCrumple]:
@@ -133,13 +134,29 @@ def colour_table() -> np.ndarray:
     return np.round(255.0 * rgb).astype(np.uint8)
 
 
+def motion_table() -> np.ndarray:
+    """Sample the colours of how far a mode moves a point, from at rest to the largest movement.
+
+    Returns
+    -------
+    ndarray of uint8, shape (256, 3)
+    """
+    from matplotlib import colormaps
+
+    rgb = colormaps[_MOTION_MAP](np.linspace(0.0, 1.0, _COLOURS))[:, :3]
+    return np.round(255.0 * rgb).astype(np.uint8)
+
+
 def viewer_data(shapes: Sequence[RecordedCrumple], response_paths: Iterable[Path] = ()) -> dict:
     """Collect everything that the page's script needs, JSON-ready."""
     modes = recorded_modes(shapes, response_paths)
+    packed = [pack_shape(shape, modes.get(shape.path)) for shape in shapes]
+    radius_mm = float(f"{1e3 * max((shape['radius'] for shape in packed), default=0.1):.3g}")
+    colours = np.concatenate([colour_table(), motion_table()])
     return {
-        "shapes": [pack_shape(shape, modes.get(shape.path)) for shape in shapes],
-        "colours": base64.b64encode(colour_table().tobytes()).decode("ascii"),
-        "range_mm": published().colour_scale_mm,
+        "shapes": packed,
+        "colours": base64.b64encode(colours.tobytes()).decode("ascii"),
+        "range_mm": float(f"{colour_scale_mm(radius_mm):.3g}"),
     }
 
 

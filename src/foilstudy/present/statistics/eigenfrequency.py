@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from foilstudy.base.reference import published
+from foilstudy.present.comparison import comparable
 from foilstudy.present.statistics.cells import Samples, samples
 from foilstudy.present.statistics.regression import LinearFit, fit_linear
 
@@ -20,9 +20,11 @@ def fit_eigenfrequency_law(data: Samples) -> LinearFit:
     Returns
     -------
     LinearFit
-        Its only regressor is called ``reference_height``.
+        Its only regressor is called ``reference_height``. Where the heights depart from the law by
+        more than seeds explain, its intervals allow for it.
     """
-    return fit_linear(np.log(data.value), {"reference_height": np.log(data.reference_height_mm)})
+    heights = {"reference_height": np.log(data.reference_height_mm)}
+    return fit_linear(np.log(data.value), heights).allowing_for(data.configuration)
 
 
 def eigenfrequency_table(cube):
@@ -31,13 +33,15 @@ def eigenfrequency_table(cube):
     Returns
     -------
     pandas.DataFrame
-        ``ln(f1/Hz) = constant + exponent ln(h_ref/mm)``; ``published_exponent`` is NaN at a
-        thickness without a published value. With a small ``lack_of_fit_p`` the heights depart from
-        the law by more than seeds explain, and the interval of the exponent is too narrow.
+        ``ln(f1/Hz) = constant + exponent ln(h_ref/mm)``, with a 95 % interval. With
+        ``lack_of_fit_p`` below 0.05 the heights depart from the law by more than seeds explain;
+        the interval allows for it then and is called ``clustered``. ``published_exponent`` is
+        there for the published case alone, and NaN at a thickness without a published value.
     """
     import pandas as pd
 
     data = samples(cube, "first_eigenfrequency")
+    reference = comparable(cube)
     rows = []
     for thickness in map(float, cube["thickness"].values):
         mine = data.at_thickness(thickness)
@@ -55,10 +59,11 @@ def eigenfrequency_table(cube):
                 "n": fit.n,
                 "residual_std": fit.residual_std,
                 "lack_of_fit_p": fit.lack_of_fit_p(mine.configuration),
-                "published_exponent": published().first_eigenfrequency_exponents.get(
-                    thickness, np.nan
-                ),
+                "interval": fit.interval,
                 "note": fit.note,
             }
         )
+        if reference:
+            known = reference.first_eigenfrequency_exponents.get(thickness, np.nan)
+            rows[-1]["published_exponent"] = known
     return pd.DataFrame(rows)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from foilstudy.base.outcome import USABLE
-from foilstudy.model.foil import Material
+from foilstudy.model.materials import Material
 from foilstudy.present.configuration import configuration, material
 
 BANDWIDTH_OCTAVES = 0.5

@@ -6,17 +6,24 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foilstudy.base.reference import PowerLaw, PublishedLaw, published
+from foilstudy.base.reference import PowerLaw, PublishedLaw
+from foilstudy.present.comparison import comparable
 from foilstudy.present.statistics.cells import Samples, measured, samples
 from foilstudy.present.statistics.regression import LinearFit, fit_linear
+from foilstudy.present.statistics.trust import assess_trust, where_trusted
 
+LIMIT = "simulation mesh limit"
+PLAIN = "simulation"
 SIMULATED = {
-    "simulation": "static_stiffness",
-    "simulation mesh limit": "static_stiffness_converged",
+    LIMIT: "static_stiffness_converged",
+    PLAIN: "static_stiffness",
     "simulation pre-stressed": "prestressed_stiffness",
     "simulation pre-stressed refined": "prestressed_stiffness_converged",
 }
-"""Source of a simulated power law and the cube variable it is fitted to."""
+"""Source of a simulated power law and the cube variable it is fitted to; the best one first."""
+
+TRUSTED = "simulation mesh limit, trusted"
+"""Source of the law of the mesh limit of those configurations alone that are trusted."""
 
 NORMAL_95 = 1.959964
 """Half width of a two-sided 95 % interval of the normal distribution in standard deviations."""
@@ -59,10 +66,10 @@ def fit_power_law(data: Samples) -> FittedLaw:
             "thickness": np.log(data.thickness_um),
         },
     )
-    return FittedLaw(fit, data.configuration)
+    return FittedLaw(fit.allowing_for(data.configuration), data.configuration)
 
 
-def simulated_law(cube, direction: str, source: str = "simulation") -> FittedLaw:
+def simulated_law(cube, direction: str, source: str = PLAIN) -> FittedLaw:
     """Fit the power law to all usable realisations of the cube.
 
     Parameters
@@ -72,41 +79,79 @@ def simulated_law(cube, direction: str, source: str = "simulation") -> FittedLaw
     source
         A key of `SIMULATED`: ``simulation`` is the stress-free stiffness on the crumpled mesh,
         ``mesh limit`` that of the same shapes at element size zero, ``pre-stressed`` has the
-        stress left in, and ``refined`` was relaxed again on refined meshes.
+        stress left in, and ``refined`` was relaxed again on refined meshes. Or `TRUSTED`.
     """
-    return fit_power_law(samples(cube, SIMULATED[source], direction=direction))
+    return fit_power_law(law_samples(cube, direction, source))
+
+
+def law_samples(cube, direction: str, source: str) -> Samples:
+    """The realisations that a law is fitted to, see `simulated_law`."""
+    if source == TRUSTED:
+        name = SIMULATED[LIMIT]
+        cube = cube.assign({name: where_trusted(cube, name)})
+    else:
+        name = SIMULATED[source]
+    return samples(cube, name, direction=direction)
 
 
 def sources_in(cube) -> list[str]:
-    """Sources of `SIMULATED` that the cube has values for, and ``simulation`` always."""
+    """Sources of `SIMULATED` that the cube has values for, and ``simulation`` always.
+
+    A mesh limit without a stated error is none: older cubes repeat the plain stiffness there.
+    """
+    needed = {source: (name,) for source, name in SIMULATED.items()}
+    needed[LIMIT] += ("static_stiffness_mesh_error",)
     return [
         source
-        for source, name in SIMULATED.items()
-        if source == "simulation" or (name in cube and np.isfinite(cube[name]).any())
+        for source, names in needed.items()
+        if source == PLAIN or all(name in cube and np.isfinite(cube[name]).any() for name in names)
     ]
+
+
+def answering_source(cube, direction: str) -> str | None:
+    """Source of the law that answers: of the mesh limit, of the trusted configurations alone.
+
+    None where no configuration is trusted. Where all are, it is that of the mesh limit itself.
+    """
+    trust = assess_trust(cube)
+    if not trust.trusted.sel(direction=direction).any():
+        return None
+    return TRUSTED if trust.doubted.sel(direction=direction).any() else LIMIT
+
+
+def shown_source(cube, direction: str) -> str:
+    """Source of the law that figures show: the one that answers, or the best one that there is."""
+    return answering_source(cube, direction) or sources_in(cube)[0]
 
 
 def powerlaw_table(cube):
     """Return coefficients, uncertainty and residual checks per direction and source.
 
-    The standard errors ``*_se`` assume independent residuals; ``*_se_clustered`` allow for the
-    residuals of one configuration to be alike, which ``lack_of_fit_p`` tests. Only positive
-    values have a logarithm: ``note`` says how many others were left out. Published rows carry the
+    ``*_low`` to ``*_high`` is the 95 % interval. ``interval`` says of which kind:
+    ``independent`` residuals, or ``clustered`` by configuration where ``lack_of_fit_p`` is below
+    0.05. The standard errors ``*_se`` assume independent residuals, ``*_se_clustered`` do not. Only
+    positive values have a logarithm: ``note`` says how many others were left out.
+
+    The law that answers stands first: `TRUSTED` where some configurations are not trusted, else
+    that of the mesh limit. Published rows are there for the published case alone, and carry the
     published standard deviation, with a normal 95 % interval.
     """
     import pandas as pd
 
+    reference = comparable(cube)
     rows = []
     for direction in map(str, cube["direction"].values):
+        if answering_source(cube, direction) == TRUSTED:
+            row = _simulated_row(simulated_law(cube, direction, TRUSTED))
+            rows.append({"direction": direction, "source": TRUSTED} | row)
         for source in sources_in(cube):
             row = _simulated_row(simulated_law(cube, direction, source))
             left_out = _left_out(measured(cube, SIMULATED[source], direction=direction))
             row["note"] = "; ".join(filter(None, [row["note"], left_out]))
             rows.append({"direction": direction, "source": source} | row)
-        for source, law in published().power_laws[direction].items():
-            rows.append(
-                {"direction": direction, "source": f"published {source}"} | _published_row(law)
-            )
+        for source, law in reference.power_laws[direction].items() if reference else ():
+            row = _published_row(law, reference.citation)
+            rows.append({"direction": direction, "source": f"published {source}"} | row)
     return pd.DataFrame(rows)
 
 
@@ -135,11 +180,12 @@ def _simulated_row(law: FittedLaw) -> dict:
         "heteroscedasticity_p": fit.heteroscedasticity_p(),
         "residual_rank_correlation": fit.residual_rank_correlation(),
         "lack_of_fit_p": fit.lack_of_fit_p(law.configuration),
+        "interval": fit.interval,
         "note": fit.note,
     }
 
 
-def _published_row(law: PublishedLaw) -> dict:
+def _published_row(law: PublishedLaw, citation: str) -> dict:
     row = {}
     for name in ("alpha", "beta", "gamma"):
         value, std = getattr(law, name)
@@ -149,4 +195,4 @@ def _published_row(law: PublishedLaw) -> dict:
             f"{name}_low": value - NORMAL_95 * std,
             f"{name}_high": value + NORMAL_95 * std,
         }
-    return row | {"r2": law.r2, "note": f"{published().citation}; n not stated"}
+    return row | {"r2": law.r2, "interval": "normal", "note": f"{citation}; n not stated"}

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 CONFIDENCE = 0.95
+"""Of every interval that is given."""
+SIGNIFICANT = 0.05
+"""Probability below which a departure is not left to chance."""
 
 
 @dataclass(frozen=True)
@@ -20,8 +23,13 @@ class LinearFit:
     Attributes
     ----------
     value, std_error, low, high : mapping of name to float
-        Coefficients (the constant is called ``constant``), standard errors and 95 % confidence
-        limits from Student's t distribution.
+        Coefficients (the constant is called ``constant``), standard errors of independent
+        residuals, and 95 % confidence limits, see `interval`.
+    interval : str
+        ``independent``: the limits are those of independent residuals, from Student's t
+        distribution. ``clustered``: the model lacks fit, and they allow for residuals that are
+        alike within a cluster, with one degree of freedom less than there are clusters; nowhere
+        are they closer than the others.
     n : int
         Number of samples.
     residuals, fitted : ndarray, shape (n,)
@@ -39,8 +47,10 @@ class LinearFit:
     residuals: np.ndarray
     fitted: np.ndarray
     note: str
+    interval: str = "independent"
     _names: tuple[str, ...] = field(repr=False, default=())
     _result: object = field(repr=False, default=None)
+    _clustered: object = field(repr=False, default=None)
 
     def predict(self, regressors: Mapping[str, np.ndarray]):
         """Return the fitted mean and its 95 % confidence limits.
@@ -62,11 +72,49 @@ class LinearFit:
         mean = design @ np.asarray(self._result.params)
         if self._result.df_resid < 1:
             return mean, nan, nan.copy()
+        covariances = [self._result.cov_params()]
+        if self._clustered is not None:
+            covariances.append(self._clustered.cov_params())
+        half = np.max(
+            [
+                factor * np.sqrt(np.einsum("ij,jk,ik->i", design, covariance, design))
+                for factor, covariance in zip(self._t_factors(), covariances)
+            ],
+            axis=0,
+        )
+        return mean, mean - half, mean + half
+
+    def _t_factors(self) -> list[float]:
+        """Half width of a 95 % interval over its standard error, independent and clustered."""
         from scipy.stats import t
 
-        variance = np.einsum("ij,jk,ik->i", design, self._result.cov_params(), design)
-        half = t.ppf(0.5 + CONFIDENCE / 2, self._result.df_resid) * np.sqrt(variance)
-        return mean, mean - half, mean + half
+        freedom = [self._result.df_resid]
+        if self._clustered is not None:
+            freedom.append(self._clustered.df_resid_inference)
+        return [float(t.ppf(0.5 + CONFIDENCE / 2, degrees)) for degrees in freedom]
+
+    def allowing_for(self, cluster: np.ndarray) -> LinearFit:
+        """The same fit, with clustered intervals where the model does not hold for the clusters.
+
+        Parameters
+        ----------
+        cluster : ndarray of int, shape (n,)
+            Label of the samples that share the same regressors.
+        """
+        if not self.lack_of_fit_p(cluster) < SIGNIFICANT:
+            return self
+        robust = self._result.get_robustcov_results("cluster", groups=cluster)
+        wider = replace(self, interval="clustered", _clustered=robust)
+        plain, clustered = wider._t_factors()
+        keys = ("constant", *self._names)
+        half = dict(
+            zip(keys, np.maximum(plain * self._result.bse, clustered * robust.bse).tolist())
+        )
+        return replace(
+            wider,
+            low={k: v - half[k] if k in half else np.nan for k, v in self.value.items()},
+            high={k: v + half[k] if k in half else np.nan for k, v in self.value.items()},
+        )
 
     def clustered_std_error(self, cluster: np.ndarray) -> dict[str, float]:
         """Standard errors that allow for correlated residuals within each cluster.

@@ -1,12 +1,13 @@
-"""Stiffness of every configuration beside its bound and the published fits."""
+"""Stiffness of every configuration, whether it can be trusted, its bound and the published fits."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from foilstudy.base.outcome import USABLE
-from foilstudy.base.reference import published
+from foilstudy.present.comparison import comparable
 from foilstudy.present.statistics.cells import good
+from foilstudy.present.statistics.trust import assess_trust
 
 _STIFFNESSES = ("static_stiffness", "static_stiffness_free", "static_stiffness_converged")
 
@@ -19,32 +20,36 @@ def stiffness_summary(cube):
     pandas.DataFrame
         Stiffnesses in N/m. ``n`` realisations enter, of which ``n_not_converged`` stopped at
         the step limit; ``n_failed`` diverged or failed and do not enter. ``mesh_limit_mean`` is
-        that of the same shapes at element size zero and ``mesh_error_mean`` its estimated error;
+        that of the same shapes at element size zero, ``mesh_limit_std`` its standard deviation
+        over them, ``mesh_error_mean`` its estimated error and ``mesh_error_share_max`` the
+        largest of a realisation, over its value; ``element_over_sqrt_rt`` tells how well the
+        crumple is resolved. ``trusted``: see `foilstudy.present.statistics.trust`.
         ``cylinder_bound`` belongs to the uncrumpled cylinder. A ratio is our mean over the
-        published fit.
+        published fit; these columns are there for the published case alone.
     """
     import pandas as pd
 
     status = cube["status"].transpose("thickness", "overlength", "seed")
     usable = status.isin(USABLE).to_numpy()
     not_converged = (status == "not_converged").to_numpy()
+    reference, trust = comparable(cube), assess_trust(cube)
+    slenderness = trust.slenderness.to_numpy()
     rows = []
     for direction in map(str, cube["direction"].values):
-        laws = published().power_laws[direction]
         static, free, limit = (
             _by_cell(good(cube, name, direction=direction)) for name in _STIFFNESSES
         )
         mesh_error = _by_cell(cube["static_stiffness_mesh_error"].sel(direction=direction))
         bound = cube["cylinder_stiffness"].sel(direction=direction)
         bound = bound.transpose("thickness", "overlength").to_numpy()
+        mesh_error_max = trust.mesh_error.sel(direction=direction).to_numpy()
+        trusted = trust.trusted.sel(direction=direction).to_numpy()
         for i, j in np.ndindex(bound.shape):
             thickness = float(cube["thickness"][i])
             overlength = float(cube["overlength"][j])
             values = _finite(static[i, j])
             mean = _mean(values)
-            std = values.std(ddof=1) if values.size > 1 else np.nan
-            simulation = laws["simulation"].law.stiffness(overlength, thickness)
-            experiment = laws["experiment"].law.stiffness(overlength, thickness)
+            std = _std(values)
             rows.append(
                 {
                     "thickness_um": thickness,
@@ -61,15 +66,38 @@ def stiffness_summary(cube):
                     "max": values.max() if values.size else np.nan,
                     "free_mean": _mean(free[i, j]),
                     "mesh_limit_mean": _mean(limit[i, j]),
+                    "mesh_limit_std": _std(_finite(limit[i, j])),
                     "mesh_error_mean": _mean(mesh_error[i, j]),
+                    "mesh_error_share_max": mesh_error_max[i, j],
+                    "element_over_sqrt_rt": slenderness[i, j],
+                    "trusted": trusted[i, j],
                     "cylinder_bound": bound[i, j],
-                    "published_simulation": simulation,
-                    "ratio_simulation": mean / simulation,
-                    "published_experiment": experiment,
-                    "ratio_experiment": mean / experiment,
                 }
+                | _beside_published(reference, direction, overlength, thickness, mean)
             )
     return pd.DataFrame(rows)
+
+
+def _beside_published(reference, direction, overlength, thickness, mean) -> dict[str, float]:
+    if reference is None:
+        return {}
+    columns = {}
+    for source, law in reference.power_laws[direction].items():
+        fitted = law.law.stiffness(overlength, thickness)
+        columns |= {f"published_{source}": fitted, f"ratio_{source}": mean / fitted}
+    return columns
+
+
+def best_mean(summary):
+    """The mean stiffness in the mesh limit, and on the crumpled mesh where there is no limit.
+
+    Parameters
+    ----------
+    summary : pandas.DataFrame
+        From `stiffness_summary`.
+    """
+    stated = summary["mesh_error_mean"].notna()
+    return summary["mesh_limit_mean"].where(stated, summary["mean"])
 
 
 def _by_cell(values) -> np.ndarray:
@@ -78,6 +106,10 @@ def _by_cell(values) -> np.ndarray:
 
 def _finite(values: np.ndarray) -> np.ndarray:
     return values[np.isfinite(values)]
+
+
+def _std(values: np.ndarray) -> float:
+    return float(values.std(ddof=1)) if values.size > 1 else np.nan
 
 
 def _mean(values: np.ndarray) -> float:

@@ -28,15 +28,17 @@ TABLES = {
     "powerlaw": TableSpec(
         "present.statistics.powerlaw:powerlaw_table",
         "Least-squares fit of ln k = alpha + beta ln(overlength / %) + gamma ln(thickness / um) to "
-        "the axial and the radial stiffness k in N/m, with standard errors, 95 % intervals and R2: "
-        "on the crumpled mesh, in the mesh limit, and with the stress left in; beside them the "
-        "published fits to simulation and to experiment.",
-        "power laws, their uncertainty and the published ones",
+        "the axial and the radial stiffness k in N/m, with standard errors, 95 % intervals "
+        "(clustered by configuration where the law lacks fit) and R2: in the mesh limit (of the "
+        "trusted configurations, and of all), on the crumpled mesh, and with the stress left in; "
+        "beside them, for the published case alone, the published fits to simulation and to "
+        "experiment.",
+        "power laws and their uncertainty",
     ),
     "stiffness_summary": TableSpec(
         "present.statistics.summary:stiffness_summary",
         "Static stiffness of every configuration over its realisations, on the crumpled mesh and "
-        "in the mesh limit, with the stated mesh error.",
+        "in the mesh limit, with the stated mesh error and whether it is trusted.",
         "static stiffness of every configuration",
     ),
     "variability": TableSpec(
@@ -54,7 +56,8 @@ TABLES = {
     "eigenfrequency_law": TableSpec(
         "present.statistics.eigenfrequency:eigenfrequency_table",
         "First eigenfrequency with both rings clamped, as a power of the reference height, for "
-        "each thickness; beside it the published exponents.",
+        "each thickness, with 95 % intervals; beside it, for the published case alone, the "
+        "published exponents.",
         "exponents of the first eigenfrequency",
     ),
     "isolation": TableSpec(

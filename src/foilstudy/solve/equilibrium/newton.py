@@ -29,7 +29,7 @@ class Potential(Protocol):
     """A twice differentiable function of n unknowns."""
 
     def value_and_gradient(self, q: np.ndarray) -> tuple[float, np.ndarray]:
-        """Value and gradient (n,); a value that is not finite marks a q that is out of bounds."""
+        """Value and gradient (n,); where one is not finite, q is out of bounds."""
         ...
 
     def hessian(self, q: np.ndarray) -> sparse.csr_matrix:
@@ -150,7 +150,7 @@ class _Search:
         self._size = 0.0
         self._steps = 0
         self._point = self._evaluate(np.array(start, dtype=float))
-        if not (np.isfinite(self._point.value) and np.isfinite(self._point.gradient).all()):
+        if not np.isfinite(self._point.value):
             raise ValueError("the potential or its gradient is not finite at the start")
 
     def run(self) -> NewtonResult:
@@ -191,6 +191,8 @@ class _Search:
 
     def _evaluate(self, q: np.ndarray) -> _Point:
         value, gradient = self._potential.value_and_gradient(q)
+        if not np.isfinite(gradient).all():
+            value = np.inf  # out of bounds, as where the value itself is none
         if np.isfinite(value):
             self._size = max(self._size, abs(value))
         return _Point(q, float(value), gradient)
@@ -251,7 +253,7 @@ class _Search:
 
     def _reduction(self, trial: _Point, step: np.ndarray, slope: float) -> float:
         """Actual reduction; by the trapezoidal rule on the gradients where values round it off."""
-        if not (np.isfinite(trial.value) and np.isfinite(trial.gradient).all()):
+        if not np.isfinite(trial.value):
             return -np.inf
         if -slope < _ROUNDING * self._size:
             return -0.5 * float((self._point.gradient + trial.gradient) @ step)

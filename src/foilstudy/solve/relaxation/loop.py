@@ -188,7 +188,8 @@ def relax(
         work_rate, momentum_norm = _motion_products(velocity, momentum, force, previous, *free)
         if step % rule.check_interval == 0 or step == last_step:
             entry = recorder.record(step, force, energies, 0.5 * momentum_norm)
-            if not np.isfinite(energies.sum() + entry.kinetic_energy):
+            finite = np.isfinite(energies.sum() + entry.kinetic_energy)
+            if not finite or np.isnan(entry.residual):
                 status = "diverged"
                 break
             if step >= ramp.steps and entry.settled(rule):
@@ -247,6 +248,8 @@ class _Recorder:
         ratio = self._last.kinetic_energy_ratio
         if not np.isfinite(ratio):
             return "the energy was not finite"
+        if np.isnan(self._last.residual):
+            return "the forces were not finite"
         return f"the kinetic energy was {ratio:.1g} of the strain energy"
 
     def result(self, status, step, points, rule) -> RelaxationResult:

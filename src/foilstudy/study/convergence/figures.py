@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import textwrap
+
 import numpy as np
 
-from foilstudy.base.reference import EXPLICIT_CODE_ENERGIES, published
+from foilstudy.base.reference import EXPLICIT_CODE, EXPLICIT_CODE_ENERGIES, published
 from foilstudy.plot import style
 from foilstudy.study.convergence import plan
 from foilstudy.study.convergence.analysis import fit, means, slope
@@ -33,7 +35,7 @@ def _size_axis(ax) -> None:
 
 @style.styled
 def energy(study: Results):
-    """Strain energy of every crumple against element size, with fit and published values."""
+    """Strain energy of every crumple against element size, with fit, beside those by QEPH."""
     figure, panels = _panels()
     for ax, thickness in zip(panels, THICKNESSES_UM, strict=True):
         for element, label in _ELEMENTS.items():
@@ -48,7 +50,11 @@ def energy(study: Results):
         if thickness == 500:
             for size, energies in EXPLICIT_CODE_ENERGIES.items():
                 look = {"ls": "none", "marker": "D", "color": _OTHER}
-                label = "other code (QEPH)" if size == max(EXPLICIT_CODE_ENERGIES) else None
+                label = (
+                    textwrap.fill(EXPLICIT_CODE, 40)
+                    if size == max(EXPLICIT_CODE_ENERGIES)
+                    else None
+                )
                 ax.plot([size] * len(energies), energies, **look, label=label)
         else:
             ax.set_yscale("log")

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from foilstudy.base.reference import EXPLICIT_CODE_ENERGIES, published
+from foilstudy.base.reference import EXPLICIT_CODE, EXPLICIT_CODE_ENERGIES, published
 from foilstudy.base.tables import markdown_table
 from foilstudy.study.convergence import plan
 from foilstudy.study.convergence.analysis import fit, means, slope
@@ -125,7 +125,7 @@ def _explicit_code() -> str:
         ", ".join(f"{value:g}" for value in values) + f" J at {size:g} mm"
         for size, values in EXPLICIT_CODE_ENERGIES.items()
     )
-    return f"Another code, with the published kind of element (QEPH), 500 um: {energies}.\n"
+    return f"{EXPLICIT_CODE}, 500 um: {energies}.\n"
 
 
 def _levels(study: Results) -> str:

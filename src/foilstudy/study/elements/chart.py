@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import textwrap
+
 import numpy as np
 
-from foilstudy.base.reference import EXPLICIT_CODE_ENERGIES
+from foilstudy.base.reference import EXPLICIT_CODE, EXPLICIT_CODE_ENERGIES
 from foilstudy.plot import style
 from foilstudy.study.elements.bending import SLENDERNESS
 from foilstudy.study.elements.plan import BASELINE, COARSE_MM, DEFAULT, FROZEN
@@ -91,14 +93,14 @@ def _against_cost(ax, study: Results, key: str) -> None:
 
 
 def _crumple_energy(ax, study: Results) -> None:
-    """Energy of crumples against cost, beside finer meshes and those of an explicit code."""
+    """Energy of crumples against cost, beside finer meshes and those by QEPH."""
     for name in VARIANTS:
         energies = study["crumples"][name]["energies"]
         cost = study["cost"][BASELINE]["relative"][name]
         ax.plot([cost] * len(energies), energies, **_look(name) | {"ls": "none"})
     for (size, energies), look in zip(EXPLICIT_CODE_ENERGIES.items(), ("-", "--"), strict=True):
         for energy in energies:
-            label = f"QEPH, this project, {size:g} mm"
+            label = textwrap.fill(f"{EXPLICIT_CODE}, {size:g} mm", 40)
             ax.axhline(energy, color="#8172b3", lw=1.0, ls=look, label=label)
     for (case, record), look in zip(study["fine"].items(), ("--", "-"), strict=True):
         energy = np.nanmean(record["energies"])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from foilstudy.base.reference import EXPLICIT_CODE_ENERGIES
+from foilstudy.base.reference import EXPLICIT_CODE, EXPLICIT_CODE_ENERGIES
 from foilstudy.base.tables import markdown_table
 from foilstudy.study.elements.bending import SLENDERNESS
 from foilstudy.study.elements.plan import BASELINE, DEFAULT, FINE, FROZEN
@@ -83,5 +83,5 @@ def page(study: Results) -> str:
     return (
         markdown_table(["element", *(heading for _, heading, _ in _HEADINGS)], rows)
         + f"\nCrumple energy of the default element on finer meshes, J: {fine}.\n"
-        + f"QEPH, computed for this project, J: {explicit}.\n"
+        + f"{EXPLICIT_CODE}, J: {explicit}.\n"
     )

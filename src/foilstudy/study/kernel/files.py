@@ -6,17 +6,27 @@ Everything of a study lies in its folder: a record ``PART/CASE.json`` per case, 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import asdict, is_dataclass
+import json
+import os
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import asdict, is_dataclass, replace
+from hashlib import sha256
 from pathlib import Path
+from typing import Any
+from zipfile import BadZipFile
 
 import numpy as np
 
 from foilstudy.base.costs import Cost, measured
-from foilstudy.base.files import read_json, write_json, written_whole
+from foilstudy.base.errors import Refusal
+from foilstudy.base.files import json_text, read_json_text, write_json, written_whole
+from foilstudy.base.manifest import outdated, write_manifest
+from foilstudy.base.origin import Origin
 from foilstudy.base.provenance import provenance
+from foilstudy.base.record import AGAIN
 from foilstudy.base.tables import csv_text
-from foilstudy.study.kernel.plan import Lazy, Record, Records, Study, case_name
+from foilstudy.study.kernel.plan import Case, Lazy, Part, Record, Records, Study, case_name
+from foilstudy.study.stale import Stale
 
 
 def measure(
@@ -42,39 +52,137 @@ def measure(
     with measured() as cost:
         result = plan.measure(plan.case(case), **records)
     record = Record(part, plan.case(case), asdict(result) if is_dataclass(result) else result, cost)
-    write_record(study, record, path)
+    write_record(study, record, path, records)
     return record
 
 
-def write_record(study: Study, record: Record, path: str | Path) -> None:
-    """Write a record as JSON, its arrays beside it."""
+def write_record(
+    study: Study, record: Record, path: str | Path, needed: Records | None = None
+) -> None:
+    """Write a record as JSON, its arrays beside it; `needed` are the records it was made from."""
     path, keys, result = Path(path), study.part(record.part).arrays, record.result
+    arrays = {key: np.asarray(result[key]) for key in keys}
     if keys:
         with written_whole(path.with_suffix(".npz")) as partial, partial.open("wb") as file:
-            np.savez_compressed(file, **{key: result[key] for key in keys})
+            np.savez_compressed(file, **arrays)
         result = {key: value for key, value in result.items() if key not in keys}
     head = {"study": study.name, "part": record.part, "case": case_name(record.case)}
     head["parameters"] = asdict(record.case) if is_dataclass(record.case) else {}
-    write_json(head | provenance() | {"cost": asdict(record.cost), "result": result}, path)
+    made = _origin(study, record.part, record.case, needed or {}).attributes()
+    made["digest"] = _digest(json.loads(json_text(result)), arrays)
+    write_json(head | made | provenance() | {"cost": asdict(record.cost), "result": result}, path)
 
 
-def read_record(study: Study, path: str | Path) -> Record:
-    """The record in a JSON file and the arrays beside it."""
+def read_record(study: Study, path: str | Path, needed: Records | None = None) -> Record:
+    """The record in a JSON file and the arrays beside it.
+
+    Parameters
+    ----------
+    needed : records, optional
+        Those beside it that it is made from; without them it is not asked whether it was.
+
+    Raises
+    ------
+    Refusal
+        If a file is missing, cut off, or none of this study, if the record is of another case,
+        made by other code or from other records, or holds other values than were written.
+    """
     path = Path(path)
-    content = read_json(path)
-    part, result = study.part(content["part"]), content["result"]
-    if part.arrays:
-        with np.load(path.with_suffix(".npz")) as arrays:
-            result |= dict(arrays)
-    return Record(part.name, part.case(content["case"]), result, Cost(**content["cost"]))
+    try:
+        text = path.read_text("utf-8")
+        content, plain = read_json_text(text), json.loads(text)["result"]
+        part, result = study.part(content["part"]), content["result"]
+        case, cost, digest = part.case(content["case"]), Cost(**content["cost"]), content["digest"]
+        arrays = {}
+        if part.arrays:
+            with np.load(path.with_suffix(".npz")) as file:
+                arrays = {key: file[key] for key in part.arrays}
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, BadZipFile) as error:
+        raise Refusal(
+            f"{path}: cannot be read as a record of {study.name} "
+            f"({type(error).__name__}: {error}); {AGAIN}."
+        ) from None
+    if _digest(plain, arrays) != digest:
+        raise Refusal(f"{path}: its values are not those that were written; {AGAIN}.")
+    found, wanted = Origin.of(content), _origin(study, part.name, case, needed or {})
+    if needed is None:
+        found = replace(found, sources=())
+    place = _task(study, path.parent.name, path.stem)
+    if departure := found.departure(replace(wanted, task=place)):
+        raise Refusal(f"{path}: was made {departure}; {AGAIN}.")
+    return Record(part.name, case, result | arrays if arrays else result, cost, digest)
 
 
 def read_records(study: Study, folder: str | Path) -> Records:
-    """All records of a study in its folder."""
+    """All records of a study in its folder.
+
+    Raises
+    ------
+    Refusal
+        If one does not count, see `read_record`.
+    """
     found: Records = {part.name: {} for part in study.parts}
-    for record in (read_record(study, Path(folder, file)) for file in study.records()):
-        found[record.part][record.case] = record
+    for part in study.parts:
+        for case in part.cases:
+            path = Path(folder, part.files(case_name(case))[0])
+            record = read_record(study, path, needed_records(part, case, found))
+            found[part.name][case] = record
     return found
+
+
+def stale_results(study: Study, folder: str | Path) -> Iterator[Stale]:
+    """Go through those results in the folder of a study that are there but do not count."""
+    folder, found = Path(folder), {part.name: {} for part in study.parts}
+    for part in study.parts:
+        for case in part.cases:
+            path = folder / part.files(case_name(case))[0]
+            try:
+                needed = needed_records(part, case, found)
+                found[part.name][case] = read_record(study, path, needed)
+            except KeyError:
+                continue  # made again with what it needs
+            except Refusal as problem:
+                if os.path.lexists(path):
+                    reason = str(problem).removeprefix(f"{path}: ").partition(f"; {AGAIN}")[0]
+                    yield Stale(path, reason)
+    shown = [folder / name for name in study.outputs()]
+    if all(len(found[part.name]) == len(part.cases) for part in study.parts):
+        other = outdated(folder, _presented_origin(study, found), shown)
+    else:
+        other = {path: "was made from other records" for path in shown if path.is_file()}
+    yield from (Stale(path, reason) for path, reason in other.items())
+
+
+def needed_records(part: Part, case: Case, found: Records) -> Records:
+    """The records that a case takes; KeyError if one is not there."""
+    return {
+        name: {other: found[name][other] for other in cases(case)}
+        for name, cases in part.needs.items()
+    }
+
+
+def _origin(study: Study, part: str, case: Case, needed: Records) -> Origin:
+    return Origin(_task(study, part, case_name(case)), study.part(part).code, _digests(needed))
+
+
+def _task(study: Study, part: str, case: str) -> str:
+    return json.dumps({"study": study.name, "part": part, "case": case})
+
+
+def _presented_origin(study: Study, records: Records) -> Origin:
+    return Origin(code=study.presenting_code, sources=_digests(records))
+
+
+def _digests(records: Records) -> tuple[str, ...]:
+    return tuple(record.digest for cases in records.values() for record in cases.values())
+
+
+def _digest(result: Any, arrays: Mapping[str, np.ndarray]) -> str:
+    summary = sha256(json.dumps(result).encode())
+    for name in sorted(arrays):
+        array = np.ascontiguousarray(arrays[name])
+        summary.update(f"\0{name} {array.dtype.str} {array.shape}\0".encode() + array.tobytes())
+    return summary.hexdigest()[:16]
 
 
 def present(study: Study, folder: str | Path) -> None:
@@ -90,6 +198,8 @@ def present(study: Study, folder: str | Path) -> None:
             partial.write_text(text, encoding="utf-8")
     for stem, draw in study.figures.items():
         save(draw(findings), Path(folder, stem))
+    shown = [Path(folder, name) for name in study.outputs()]
+    write_manifest(Path(folder), _presented_origin(study, records), shown)
 
 
 def problems(study: Study, folder: str | Path) -> list[str]:

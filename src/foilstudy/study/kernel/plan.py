@@ -14,6 +14,21 @@ from operator import attrgetter
 from typing import Any
 
 from foilstudy.base.costs import Cost
+from foilstudy.base.fingerprint import Code
+
+DECIDING = (
+    "config.foils",
+    "config.scene",
+    "linalg",
+    "model",
+    "solve",
+    "measure",
+    "pipeline",
+    "study",
+)
+"""Packages and modules of the package that decide what is measured."""
+PRESENTING = ("base", "plot", "study")
+"""Those that decide how it is shown."""
 
 Case = Any
 """A string, or a frozen dataclass of strings, numbers and truth values."""
@@ -70,6 +85,15 @@ class Lazy:
         return self.load()(*arguments, *self.arguments, **named)
 
 
+def _code(functions: Iterable[Callable], rooms: tuple[str, ...]) -> Code:
+    """Of the modules of functions; those outside the package, which no workflow runs, count not."""
+    package = f"{__name__.partition('.')[0]}."
+    places = (getattr(each, "place", None) or each.__module__ for each in functions)
+    modules = {place.partition(":")[0] for place in places if place.startswith(package)}
+    entries = tuple(sorted(module.removeprefix(package) for module in modules))
+    return Code(entries, rooms, without=("study.kernel", "study.stale"))
+
+
 @dataclass(frozen=True)
 class Record:
     """What was measured of one case.
@@ -79,12 +103,15 @@ class Record:
     result : dict or list
         As measured; lists of numbers come back as arrays, numbers that were not finite as None,
         as NaN within arrays.
+    digest : str
+        Of the result; empty until it is written.
     """
 
     part: str
     case: Case
     result: Any
     cost: Cost
+    digest: str = ""
 
 
 Records = Mapping[str, Mapping[Case, Record]]
@@ -155,6 +182,16 @@ class Part:
         """MB for the job of a case."""
         return self.memory_mb(self.case(case)) if callable(self.memory_mb) else self.memory_mb
 
+    @property
+    def code(self) -> str:
+        """Fingerprint of `measured_by`."""
+        return self.measured_by.fingerprint()
+
+    @property
+    def measured_by(self) -> Code:
+        """What measures a case."""
+        return _code((self.measure,), DECIDING)
+
     def files(self, case: str) -> list[str]:
         """Files of a record in the folder of the study, the JSON first."""
         return [f"{self.name}/{case}.{kind}" for kind in ("json", "npz")[: 1 + bool(self.arrays)]]
@@ -198,6 +235,12 @@ class Study:
 
     def __post_init__(self):
         object.__setattr__(self, "folder", self.folder or self.name)
+
+    @property
+    def presenting_code(self) -> str:
+        """Fingerprint of what makes tables and figures of the records."""
+        shown = (*self.tables.values(), *self.figures.values(), self.findings)
+        return _code(shown, PRESENTING).fingerprint()
 
     def part(self, name: str) -> Part:
         """The part of a name.

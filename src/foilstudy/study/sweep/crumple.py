@@ -12,11 +12,13 @@ from foilstudy.config import CrumpleTask
 from foilstudy.config.foils import foil_of
 from foilstudy.config.scene import recipe_of
 from foilstudy.model.patch import RING_ROWS, knot_points
+from foilstudy.model.shell.folding import fold_angle
 from foilstudy.model.shell.intersection import self_crossing_share
 from foilstudy.model.shell.yielding import beyond_yield_share
 from foilstudy.pipeline.crumple import crumple
 from foilstudy.pipeline.crumpled import Crumpled, described
 from foilstudy.solve.relaxation import History
+from foilstudy.study.sweep.origins import crumple_origin
 from foilstudy.study.sweep.outcome import Outcome, Values, outcome_of
 from foilstudy.study.sweep.quantities import quantities
 
@@ -34,7 +36,6 @@ def crumple_job(task: CrumpleTask, path: Path) -> None:
         "overlength_percent": task.overlength_percent,
         "seed": task.seed,
         "element": task.mesh.element,
-        "task": task.model_dump_json(),
     } | described(foil, recipe)
 
     def work() -> Outcome:
@@ -45,7 +46,7 @@ def crumple_job(task: CrumpleTask, path: Path) -> None:
         outcome = outcome_of(work)
     values = outcome.values | {"seconds_crumple": cost.seconds}
     attributes |= {"status": outcome.status, "message": outcome.message}
-    write_record(path, quantities(values), attributes)
+    write_record(path, quantities(values), attributes, crumple_origin(task))
     print(f"{outcome.status}: {outcome.message} ({cost.seconds:.1f} s)")
 
 
@@ -113,6 +114,7 @@ def _numbers(crumpled: Crumpled) -> dict[str, float]:
         "radial_displacement_min": radial.min(),
         "radial_displacement_max": radial.max(),
         "radial_displacement_rms": np.sqrt(np.mean(radial**2)),
+        "fold_angle": fold_angle(surface),
         "beyond_yield_share": beyond_yield_share(crumpled.stressed, points),
         "self_crossing_share": self_crossing_share(surface),
     }

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from foilstudy.base.cube import CONVENTION
 from foilstudy.base.files import written_whole
+from foilstudy.base.origin import Origin
 from foilstudy.base.outcome import USABLE
 from foilstudy.base.provenance import provenance
 from foilstudy.base.record import read_record
@@ -18,6 +20,17 @@ from foilstudy.config.scene import dynamics_of
 from foilstudy.measure.dynamics import DEFINITIONS
 from foilstudy.measure.stiffness import DOF_NAMES
 from foilstudy.measure.stiffness.directional import DIRECTIONS
+from foilstudy.study.sweep.origins import (
+    cell_folder,
+    crumple_origin,
+    cube_origin,
+    cylinder_origin,
+    parts_of,
+    physics_codes,
+    refined_origin,
+    refuse_departure,
+    response_origin,
+)
 from foilstudy.study.sweep.quantities import QUANTITIES
 
 _CELL = ("thickness", "overlength", "seed")
@@ -38,6 +51,11 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
     -------
     xarray.Dataset
         As written.
+
+    Raises
+    ------
+    Refusal
+        If a record is missing, unreadable, of another task, or made by other code.
     """
     coordinates = _coordinates(study)
     variables = {name: q for name, q in QUANTITIES.items() if q.in_cube}
@@ -49,15 +67,18 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
     }
     status = np.full(cells, "", dtype=object)
     message = np.full(cells, "", dtype=object)
-    refined = study.stiffness.relaxed_refinements > 0  # records of an earlier setting stay around
+    refined = study.stiffness.relaxed_refinements > 0
     refined_status = np.full(cells, "", dtype=object)
     position = {cell: index for index, cell in zip(np.ndindex(cells), study.cells(), strict=True)}
+    digests = {name: np.full(cells, "", dtype=object) for name in parts_of(study)}
     commits: set[str] = set()
     for cell, index in position.items():
-        record = _read_cell(results, cell, refined)
+        record = _read_cell(study, cell, results)
         status[index], message[index] = record.status, record.message
         refined_status[index] = record.refined_status
         commits |= record.commits
+        for name, digest in record.digests.items():
+            digests[name][index] = digest
         for name in data.keys() & record.values.keys():
             data[name][index] = record.values[name] * variables[name].cube_scale
     cube = xr.Dataset(
@@ -82,7 +103,7 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
             "realisation_commits": ", ".join(sorted(commits)),
         },
     )
-    bounds, _ = read_record(results / "cylinder.nc")
+    bounds, attributes = _read(results / "cylinder.nc", cylinder_origin(study))
     for name, values in bounds.items():
         what = QUANTITIES[name]
         cube[name] = (what.dims, values, {"units": what.units, "long_name": what.words})
@@ -91,6 +112,11 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
     if refined:
         words = {"units": "1", "long_name": "outcome of relaxing again on refined meshes"}
         cube["refined_status"] = (_CELL, refined_status, words)
+    for name, values in digests.items():
+        words = {"units": "1", "long_name": f"digest of the record {name}.nc"}
+        cube[f"{name}_digest"] = (_CELL, values, words)
+    origin = cube_origin(study, digests, attributes["digest"])
+    cube.attrs |= origin.attributes() | {"digest": origin.digest} | physics_codes()
     _write(cube, path)
     return cube
 
@@ -124,25 +150,40 @@ class _Cell:
     status: str
     message: str
     commits: set[str]
+    digests: dict[str, str]
     refined_status: str = ""
 
 
-def _read_cell(results: Path, cell: Cell, refined: bool) -> _Cell:
-    folder = results / "realisations" / cell.thickness_id / cell.overlength_id / str(cell.seed)
-    crumpled, crumple_attributes = read_record(folder / "crumple.nc")
-    responded, attributes = read_record(folder / "response.nc")
-    status, message = attributes["status"], attributes["message"]
-    commits = {a.get("git_commit", "unknown") for a in (crumple_attributes, attributes)}
-    if status not in USABLE:
-        return _Cell({}, status, message, commits)  # whatever the crumple holds, it has failed
-    if not refined:
-        return _Cell(crumpled | responded, status, message, commits)
-    relaxed, attributes = read_record(folder / "refined.nc")
-    commits.add(attributes.get("git_commit", "unknown"))
-    if attributes["status"] != "converged":
-        message = f"{message}; relaxed again: {attributes['message']}"
-    values = crumpled | responded | relaxed
-    return _Cell(values, status, message, commits, attributes["status"])
+def _read_cell(study: StudyConfig, cell: Cell, results: Path) -> _Cell:
+    folder = cell_folder(results, cell)
+    wanted = crumple_origin(study.crumple_task(cell))
+    values, crumple = _read(folder / "crumple.nc", wanted)
+    wanted = response_origin(study.response_task(cell), crumple)
+    responded, response = _read(folder / "response.nc", wanted)
+    status, message = response["status"], response["message"]
+    records, values, relaxed_again = [crumple, response], values | responded, ""
+    if study.stiffness.relaxed_refinements:  # records of an earlier setting stay around
+        wanted = refined_origin(study.refine_task(cell), crumple)
+        relaxed, refined = _read(folder / "refined.nc", wanted)
+        records, values = [*records, refined], values | relaxed
+        if status in USABLE:
+            relaxed_again = refined["status"]
+            if relaxed_again != "converged":
+                message = f"{message}; relaxed again: {refined['message']}"
+    return _Cell(
+        values if status in USABLE else {},  # whatever the crumple holds, it has failed
+        status,
+        message,
+        {record["git_commit"] for record in records},
+        {name: record["digest"] for name, record in zip(parts_of(study), records, strict=True)},
+        relaxed_again,
+    )
+
+
+def _read(path: Path, wanted: Origin) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+    values, attributes = read_record(path)
+    refuse_departure(path, Origin.of(attributes), wanted)
+    return values, attributes
 
 
 def _write(cube: xr.Dataset, path: Path) -> None:

@@ -14,6 +14,7 @@ from foilstudy.model.patch import cylinder_control_points
 from foilstudy.model.shell.elements.one_point import OnePoint
 from foilstudy.pipeline.shape import Shape
 from foilstudy.pipeline.static import stress_free_stiffness
+from foilstudy.study.sweep.origins import cylinder_origin
 from foilstudy.study.sweep.quantities import quantities
 
 
@@ -28,7 +29,8 @@ def cylinder_bounds(study: StudyConfig, path: Path) -> None:
     write_record(
         path,
         quantities({"cylinder_stiffness": bounds.reshape(shape)}),
-        {"task": study.cylinder_task()},
+        {},
+        cylinder_origin(study),
     )
 
 

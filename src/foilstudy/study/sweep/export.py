@@ -4,29 +4,51 @@ from __future__ import annotations
 
 import traceback
 from pathlib import Path
+from typing import Any
+
+import numpy as np
 
 from foilstudy.base.errors import Refusal
 from foilstudy.base.files import written_whole
+from foilstudy.base.manifest import write_manifest
+from foilstudy.base.origin import Origin
 from foilstudy.base.provenance import provenance
-from foilstudy.base.record import MACHINE_FAULTS, read_record
+from foilstudy.base.record import MACHINE_FAULTS, read_attributes
 from foilstudy.config import ResponseTask
 from foilstudy.config.scene import dynamics_of
 from foilstudy.export.contents import Contents
 from foilstudy.export.formats import FORMATS
 from foilstudy.export.write import write
 from foilstudy.pipeline.crumpled import Crumpled
+from foilstudy.study.sweep.origins import (
+    export_origin,
+    read_crumple,
+    refuse_departure,
+    response_origin,
+)
 
 README = "README.txt"
 
 
 def recorded_task(folder: Path) -> ResponseTask:
-    """Foil, damping, reduction and band of a finished realisation, from its ``response.nc``."""
-    _, attributes = read_record(folder / "response.nc")
-    return ResponseTask.model_validate_json(attributes["task"])
+    """Foil, damping, reduction and band of a finished realisation, from its ``response.nc``.
+
+    Raises
+    ------
+    Refusal
+        If one of the records is unreadable, was made by other code, or does not belong to the
+        other.
+    """
+    path = folder / "response.nc"
+    attributes = read_attributes(path)
+    task = ResponseTask.model_validate_json(attributes["task"])
+    _, crumple = read_crumple(folder / "crumple.nc", task)
+    refuse_departure(path, Origin.of(attributes), response_origin(task, crumple))
+    return task
 
 
 def contents_of(task: ResponseTask, crumple_path: Path, refinements: int = 0) -> Contents:
-    """Shape, reduced model and band of one crumple.
+    """Shape and dynamics of one crumple; its reduced model is made when a format asks for it.
 
     Parameters
     ----------
@@ -40,17 +62,24 @@ def contents_of(task: ResponseTask, crumple_path: Path, refinements: int = 0) ->
     Raises
     ------
     Refusal
-        If the crumple is no equilibrium, or if the reduced model is valid nowhere in the band.
-    SolveError
-        If a factorisation or the reduction fails.
+        If the record is unreadable or another's, or if the crumple is no equilibrium.
     """
     if refinements < 0:
         raise Refusal(f"refinements is {refinements}; elements can be halved, not joined.")
-    values, attributes = read_record(crumple_path)
-    status = attributes.get("status", "missing")
+    return _contents(task, crumple_path, *read_crumple(crumple_path, task), refinements)
+
+
+def _contents(
+    task: ResponseTask,
+    crumple_path: Path,
+    values: dict[str, np.ndarray],
+    attributes: dict[str, Any],
+    refinements: int = 0,
+) -> Contents:
+    status = attributes["status"]
     if status != "converged":
         raise Refusal(
-            f"{crumple_path}: its status is {status} ({attributes.get('message', 'no message')}); "
+            f"{crumple_path}: its status is {status} ({attributes['message']}); "
             "only an equilibrium is exported, so relax it further or take another seed."
         )
     origin = {
@@ -78,16 +107,17 @@ def export_realisation(task: ResponseTask, crumple_path: Path, folder: Path, *fo
     Raises
     ------
     Refusal
-        If a format is unknown.
+        If a format is unknown, or the record of the crumple unreadable or another's.
     """
     files = {name: FORMATS.choice(name).filename for name in formats}
+    values, attributes = read_crumple(crumple_path, task)
     lines = [
         f"Realisation {task.thickness_um:g} um, {task.reference_height_mm:g} mm, seed {task.seed}.",
         "SI units; how to open these files: docs/exchange.md.",
         "",
     ]
     try:
-        contents = contents_of(task, crumple_path)
+        contents = _contents(task, crumple_path, values, attributes)
     except MACHINE_FAULTS:
         raise
     except Exception as error:  # a study must survive any one realisation
@@ -96,8 +126,9 @@ def export_realisation(task: ResponseTask, crumple_path: Path, folder: Path, *fo
         lines += [_exported(contents, name, folder) for name in files]
     with written_whole(folder / README) as partial:
         partial.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    there = sum((folder / filename).is_file() for filename in files.values())
-    print("\n".join(lines), f"{there} of {len(files)} files written", sep="\n")
+    there = [path for filename in files.values() if (path := folder / filename).is_file()]
+    write_manifest(folder, export_origin(task, attributes, formats), [folder / README, *there])
+    print("\n".join(lines), f"{len(there)} of {len(files)} files written", sep="\n")
 
 
 def _exported(contents: Contents, name: str, folder: Path) -> str:

@@ -98,6 +98,12 @@ QUANTITIES: dict[str, Declared] = {
     "refined_negative_eigenvalues": Declared("1", "negative eigenvalues on that mesh"),
     "refined_steps": Declared("1", "pseudo-time steps on that mesh"),
     "element_size": _length("element size of the crumpled mesh"),
+    "fold_angle": Declared(
+        "rad",
+        "angle between neighbouring elements that one pair in a hundred exceeds",
+        cube_units="deg",
+        cube_scale=180 / np.pi,
+    ),
     "beyond_yield_share": Declared("1", "share of the surface beyond the yield stress"),
     "self_crossing_share": Declared("1", "share of the surface crossed by another part"),
     "mode_count": Declared(

@@ -8,11 +8,12 @@ import numpy as np
 
 from foilstudy.base.costs import measured
 from foilstudy.base.outcome import USABLE
-from foilstudy.base.record import read_record, write_record
+from foilstudy.base.record import write_record
 from foilstudy.base.spec import dumped
 from foilstudy.config import RefineTask
 from foilstudy.config.foils import foil_of
 from foilstudy.pipeline.crumpled import Crumpled
+from foilstudy.study.sweep.origins import read_crumple, refined_origin
 from foilstudy.study.sweep.outcome import Outcome, outcome_of
 from foilstudy.study.sweep.quantities import quantities
 
@@ -22,8 +23,13 @@ def refine_job(task: RefineTask, crumple_path: Path, path: Path) -> None:
 
     Whatever happens is a record: its ``status`` and ``message`` are those of this relaxation, and
     say nothing against the crumple it began with.
+
+    Raises
+    ------
+    Refusal
+        If the record of the crumple is unreadable or another's: no outcome of this realisation.
     """
-    recorded, attributes = read_record(crumple_path)
+    recorded, attributes = read_crumple(crumple_path, task)
     outcome = Outcome(attributes["status"], attributes["message"])
     with measured() as cost:
         if outcome.status in USABLE:
@@ -34,10 +40,9 @@ def refine_job(task: RefineTask, crumple_path: Path, path: Path) -> None:
     described = {
         "status": outcome.status,
         "message": outcome.message,
-        "task": task.model_dump_json(),
         "foil": dumped(foil_of(task)),
     }
-    write_record(path, quantities(values), described)
+    write_record(path, quantities(values), described, refined_origin(task, attributes))
     print(f"{outcome.status}: {outcome.message}")
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from foilstudy.base.costs import measured
 from foilstudy.base.outcome import USABLE
-from foilstudy.base.record import read_record, write_record
+from foilstudy.base.record import write_record
 from foilstudy.base.spec import dumped
 from foilstudy.config import ResponseTask
 from foilstudy.config.foils import foil_of
@@ -19,6 +19,7 @@ from foilstudy.model.patch import Patch
 from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.structures import stress_free_structure
 from foilstudy.pipeline.vibration import surface_modes, vibration_of
+from foilstudy.study.sweep.origins import read_crumple, response_origin
 from foilstudy.study.sweep.outcome import Outcome, Values, outcome_of
 from foilstudy.study.sweep.quantities import quantities
 
@@ -28,8 +29,13 @@ def respond_job(task: ResponseTask, crumple_path: Path, path: Path) -> None:
 
     A crumple without a shape passes its status on; a failed measurement becomes a record whose
     ``status`` and ``message`` say so.
+
+    Raises
+    ------
+    Refusal
+        If the record of the crumple is unreadable or another's: no outcome of this realisation.
     """
-    recorded, attributes = read_record(crumple_path)
+    recorded, attributes = read_crumple(crumple_path, task)
     outcome = Outcome(attributes["status"], attributes["message"])
 
     def work() -> Outcome:
@@ -44,10 +50,9 @@ def respond_job(task: ResponseTask, crumple_path: Path, path: Path) -> None:
     described = {
         "status": outcome.status,
         "message": outcome.message,
-        "task": task.model_dump_json(),
         "foil": dumped(foil_of(task)),
     }
-    write_record(path, quantities(values), described)
+    write_record(path, quantities(values), described, response_origin(task, attributes))
     print(_summary(values) if outcome.values else f"{outcome.status}: {outcome.message}")
 
 
@@ -59,10 +64,12 @@ def _beyond_validity(task: ResponseTask, values: dict) -> str:
     remedy = "lower dynamics.shown_max_hz or raise dynamics.tolerance"
     if options.reduction != "rational_krylov":
         remedy = f"set dynamics.reduction: rational_krylov, or {remedy}"
+    reach = f"only to {values['valid_to_frequency']:.4g} Hz"
+    if not np.isfinite(values["dynamic_stiffness_re"]).any():
+        reach = "at no frequency of the shown band"
     return (
-        f"dynamic stiffness only to {values['valid_to_frequency']:.0f} Hz, as the "
-        f"{options.reduction} model is wrong by about {100 * error:.2g} % in the shown band: "
-        f"{remedy}"
+        f"dynamic stiffness {reach}, as the {options.reduction} model is wrong by about "
+        f"{100 * error:.2g} % in it: {remedy}"
     )
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foilstudy.model.foil import Material
+from foilstudy.model.materials import Material
 from foilstudy.model.patch import Patch
 from foilstudy.model.shell.elements import ELEMENTS
 from foilstudy.model.shell.elements.protocol import Element

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from foilstudy.linalg import Modes, SolveError, modes_below
-from foilstudy.model.foil import Material
+from foilstudy.model.materials import Material
 from foilstudy.model.patch import Patch, cylinder_control_points
 from foilstudy.model.shell.tangent import mass_matrix
 from foilstudy.model.supports.edges import (

@@ -12,7 +12,7 @@ import numpy as np
 import scipy.sparse as sparse
 
 from foilstudy.linalg import factorise
-from foilstudy.model.foil import Material
+from foilstudy.model.materials import Material
 from foilstudy.model.patch import Patch, fitted_control_points, knot_points
 from foilstudy.model.supports.edges import (
     SIMPLY_SUPPORTED,

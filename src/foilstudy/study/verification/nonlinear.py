@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from foilstudy.model.foil import Material
+from foilstudy.model.materials import Material
 from foilstudy.model.patch import Patch, fitted_control_points
 from foilstudy.model.supports.edges import clamped, constraints, symmetric
 from foilstudy.model.supports.loads import EdgeMoment, edge_load, point_load

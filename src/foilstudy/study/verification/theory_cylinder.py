@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import block_diag, cholesky, eigh, solve_triangular, svdvals
 
-from foilstudy.model.foil import Material
+from foilstudy.model.materials import Material
 from foilstudy.study.verification.spectral import LineBasis
 
 CLAMPED, DIAPHRAGM, FREE = (1, 1, 2), (0, 1, 1), (0, 0, 0)

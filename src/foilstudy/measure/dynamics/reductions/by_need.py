@@ -5,13 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from foilstudy.linalg import SolveError
+from foilstudy.base.ranges import require_number
+from foilstudy.linalg import MODES_MAX, SolveError, TooManyModes
 from foilstudy.measure.dynamics.accuracy import Wanted
 from foilstudy.measure.dynamics.reduction import ReducedModel, Reduction
 from foilstudy.measure.dynamics.structure import Structure
 
 _FIRST, _FACTOR, _TRIES = 2.0, 1.4, 6
 """First cut-off over the highest frequency, growth, and how often: up to 10.8 times."""
+_MODES_MAX, _LOWERINGS = 1000, 12
+"""Modes that one search may be after: half a minute at ten thousand unknowns, and how often the
+first cut-off is halved to keep to them."""
 
 
 @dataclass(frozen=True)
@@ -21,11 +25,11 @@ class ByNeed:
     Attributes
     ----------
     kind : callable
-        `CraigBampton` or `HintzHerting`: cut-off (Hz) and `Wanted` to reduction.
+        `CraigBampton` or `HintzHerting`: cut-off (Hz), `Wanted`, number of modes to reduction.
     wanted : Wanted
     """
 
-    kind: Callable[[float, Wanted], Reduction]
+    kind: Callable[[float, Wanted, int], Reduction]
     wanted: Wanted
 
     def reduce(self, structure: Structure) -> ReducedModel:
@@ -42,10 +46,16 @@ class Modal:
     cutoff_hz : float
     wanted : Wanted, optional
         What the error is estimated for.
+    modes_max : int
+        Modes that are sought at most; more of them below the cut-off are refused.
     """
 
     cutoff_hz: float
     wanted: Wanted | None = None
+    modes_max: int = MODES_MAX
+
+    def __post_init__(self):
+        require_number("cut-off of a reduction", self.cutoff_hz, "Hz", above=0)
 
     @classmethod
     def for_band(cls, wanted: Wanted, cutoff_hz: float | None = None) -> Reduction:
@@ -54,15 +64,18 @@ class Modal:
 
 
 def with_enough_modes(
-    structure: Structure, reduction: Callable[[float, Wanted], Reduction], wanted: Wanted
+    structure: Structure, reduction: Callable[[float, Wanted, int], Reduction], wanted: Wanted
 ) -> ReducedModel:
     """Raise the cut-off until the model's own error estimate meets the tolerance.
+
+    At most six searches, each for at most a thousand modes: where more lie below the first
+    cut-off, that is lowered, and the model holds up to a lower frequency.
 
     Parameters
     ----------
     structure : Structure
     reduction : callable
-        `CraigBampton` or `HintzHerting`: cut-off (Hz) and `Wanted` to reduction.
+        `CraigBampton` or `HintzHerting`: cut-off (Hz), `Wanted`, number of modes to reduction.
     wanted : Wanted
 
     Returns
@@ -77,13 +90,20 @@ def with_enough_modes(
         If a factorisation or the mode search fails at the first cut-off.
     """
     cutoff = _FIRST * wanted.highest_hz
-    model = reduction(cutoff, wanted).reduce(structure)
+    for lowering in range(_LOWERINGS + 1):
+        try:
+            model = reduction(cutoff, wanted, _MODES_MAX).reduce(structure)
+            break
+        except TooManyModes:
+            if lowering == _LOWERINGS:
+                raise
+            cutoff /= 2
     for _ in range(_TRIES - 1):
         if model.error_estimate <= wanted.tolerance:
             break
         cutoff *= _FACTOR
         try:
-            model = reduction(cutoff, wanted).reduce(structure)
+            model = reduction(cutoff, wanted, _MODES_MAX).reduce(structure)
         except SolveError:
             break  # the last one is the best there is, and its estimate says how good
     return model

@@ -27,6 +27,7 @@ class CraigBampton(Modal):
             If a factorisation or the mode search fails.
         """
         limit = (2 * np.pi * self.cutoff_hz) ** 2
-        modes = modes_below(structure.stiffness.interior, structure.mass.interior, limit)
+        k, m = structure.stiffness.interior, structure.mass.interior
+        modes = modes_below(k, m, limit, self.modes_max)
         model = project(structure, modes.shapes, "craig_bampton")
         return judged(structure, model, self.wanted)

@@ -15,9 +15,16 @@ from foilstudy.measure.dynamics.reduction import ReducedModel, project
 from foilstudy.measure.dynamics.reductions.by_need import Modal
 from foilstudy.measure.dynamics.structure import INTERFACE, Structure, bordered
 
+_APART = 1e-4
+"""Lowest cut-off over the first elastic mode of rings and a foil in tow, both squared: nearer
+to zero, rounding does not tell the rigid modes from the cut-off."""
+
 
 class HintzHerting(Modal):
-    """Keep every free-free mode below a cut-off frequency."""
+    """Keep every free-free mode below a cut-off frequency.
+
+    A cut-off below a hundredth of the first elastic frequency is raised to that.
+    """
 
     def reduce(self, structure: Structure) -> ReducedModel:
         """Reduced model of the structure.
@@ -28,9 +35,8 @@ class HintzHerting(Modal):
             If a factorisation or the mode search fails.
         """
         m, static = structure.mass, structure.static
-        modes = modes_below(
-            bordered(structure.stiffness), bordered(m), limit=(2 * np.pi * self.cutoff_hz) ** 2
-        )
+        limit = max((2 * np.pi * self.cutoff_hz) ** 2, _APART * _first_elastic(structure))
+        modes = modes_below(bordered(structure.stiffness), bordered(m), limit, self.modes_max)
         constraint = static.constraint_modes
         by_size = np.argsort(np.abs(modes.eigenvalues))
         elastic = modes.shapes[:, np.sort(by_size[structure.rigid_modes :])]
@@ -40,6 +46,13 @@ class HintzHerting(Modal):
             relief = relief @ structure.rigid_motions
         basis = _orthonormal(np.hstack([relief, residualised]))
         return judged(structure, project(structure, basis, "hintz_herting"), self.wanted)
+
+
+def _first_elastic(structure: Structure) -> float:
+    """Lowest eigenvalue of a static reduction that is not of a rigid motion, rad2/s2."""
+    nothing = np.empty((structure.mass.interior.shape[0], 0))
+    values, _ = project(structure, nothing, "guyan").free_modes()
+    return float(np.sort(np.abs(values))[structure.rigid_modes])
 
 
 def _orthonormal(vectors: np.ndarray) -> np.ndarray:

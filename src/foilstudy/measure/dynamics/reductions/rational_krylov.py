@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from foilstudy.linalg import BlockKrylov, factorise
+from foilstudy.linalg import BlockKrylov, shifted
 from foilstudy.measure.dynamics.accuracy import CHECKS, Wanted, with_estimate
 from foilstudy.measure.dynamics.reduction import ReducedModel, project
 from foilstudy.measure.dynamics.response import dynamic_stiffness, relative_error
@@ -95,7 +95,7 @@ class _Space:
         Now and then, but at first not before there are more vectors than modes below the shift.
         """
         k, m = self._structure.stiffness.interior, self._structure.mass.interior
-        inverse = factorise((k - (2 * np.pi * shift_hz) ** 2 * m).tocsr())
+        inverse, _ = shifted(k, m, (2 * np.pi * shift_hz) ** 2)
         load, check_at = self._inertia, _MODES_SHARE * inverse.negative_eigenvalues
         for moment in range(1, count + 1):
             load = self._krylov.append(inverse, load)

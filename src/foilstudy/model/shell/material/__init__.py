@@ -7,7 +7,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from foilstudy.base.registry import Choice, Registry
-from foilstudy.model.foil import Material
+from foilstudy.model.materials import Material
 
 __all__ = ["LAWS", "Law"]
 

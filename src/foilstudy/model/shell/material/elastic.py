@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from foilstudy.model.foil import Material
+from foilstudy.model.materials import Material, material
 
 
 @dataclass(frozen=True)
@@ -19,9 +19,13 @@ class Elastic:
     Attributes
     ----------
     material : Material
+        Or the name of a known one.
     """
 
     material: Material
+
+    def __post_init__(self):
+        object.__setattr__(self, "material", material(self.material))
 
     def terms(self, section: Any) -> tuple[Any, ...]:
         """See `Law`: none."""

@@ -12,6 +12,8 @@
   const modeChoice = root.querySelector("[data-act=mode]");
   const play = root.querySelector("[data-act=play]");
   const amplitude = root.querySelector("[data-act=amplitude]");
+  const shapeColours = root.querySelector("[data-act=shape-colours]");
+  const motionColours = root.querySelector("[data-act=motion-colours]");
   const gl = canvas.getContext("webgl", { antialias: true, preserveDrawingBuffer: true });
   if (!gl) return; // the still picture stays
 
@@ -33,7 +35,7 @@
   const fragmentShader = `
     precision mediump float;
     uniform sampler2D colours;
-    uniform float range;
+    uniform float range; // 0 while the movement of a mode is coloured, a share of its largest
     uniform vec4 line; // the ring's colour; alpha 0 while the sheet is drawn
     varying vec3 viewNormal, viewPosition;
     varying float value;
@@ -45,8 +47,9 @@
       float light = 0.45 + 0.35 * max(dot(n, normalize(vec3(-0.4, 0.7, 0.6))), 0.0)
                          + 0.30 * dot(n, toEye);
       float shine = 0.10 * pow(max(dot(n, normalize(toEye + vec3(-0.4, 0.7, 0.6))), 0.0), 40.0);
-      float w = clamp(0.5 + 0.5 * value / range, 0.002, 0.998);
-      gl_FragColor = vec4(texture2D(colours, vec2(w, 0.5)).rgb * light + shine, 1.0);
+      float w = range > 0.0 ? 0.5 + 0.5 * value / range : value;
+      vec2 at = vec2(clamp(w, 0.002, 0.998), range > 0.0 ? 0.25 : 0.75);
+      gl_FragColor = vec4(texture2D(colours, at).rgb * light + shine, 1.0);
     }`;
 
   // Lengths are in radii of the cylinder, so that every case is seen at the same scale.
@@ -127,9 +130,11 @@
     buffers.rings = gl.createBuffer();
     const colours = bytes(data.colours);
     gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
-    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGB, colours.length / 3, 1, 0, gl.RGB,
+    // one row of colours for the shape, one for the movement of a mode
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGB, colours.length / 6, 2, 0, gl.RGB,
       gl.UNSIGNED_BYTE, colours);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.LINEAR);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
     gl.enable(gl.DEPTH_TEST);
@@ -161,7 +166,6 @@
     gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, triangles, gl.STATIC_DRAW);
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, buffers.rings);
     gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, new Uint16Array(rings), gl.STATIC_DRAW);
-    gl.uniform1f(uniforms.range, data.range_mm * 1e-3 / shape.radius);
     const wanted = Math.max(0, modeChoice.selectedIndex);
     modeChoice.replaceChildren(new Option("none"), ...shape.modes.map((mode, k) =>
       new Option(k + 1 + ": " + mode.frequency.toPrecision(3) + " Hz")));
@@ -178,6 +182,9 @@
     if (mode) morph.value = 100; // the modes are those of the crumple
     else swing.playing = false;
     play.disabled = amplitude.disabled = !mode;
+    gl.uniform1f(uniforms.range, mode ? 0 : data.range_mm * 1e-3 / shape.radius);
+    shapeColours.hidden = Boolean(mode);
+    motionColours.hidden = !mode;
     describe();
     deform();
   }
@@ -190,7 +197,7 @@
     if (mode) {
       text += " Mode " + modeChoice.selectedIndex + " at " + mode.frequency.toPrecision(3) +
         " Hz, rings held: slowed to one cycle in " + SECONDS_PER_CYCLE +
-        " s, its largest movement drawn as " + amplitude.value + " mm.";
+        " s, its largest movement drawn as " + amplitude.value + " mm; colour: how far each point moves.";
     }
     note.textContent = text;
     amplitude.setAttribute("aria-valuetext", amplitude.value + " mm");
@@ -222,8 +229,10 @@
       high = Math.max(high, position[k]);
     }
     if (mode) for (let i = 0; i < position.length; i++) position[i] += moved * mode[i];
+    // what is coloured: how far a point moves in the mode, or how far it has left the cylinder
     for (let n = 0; n < displacement.length; n++) {
-      displacement[n] = Math.hypot(position[3 * n], position[3 * n + 1]) -
+      displacement[n] = mode ? Math.hypot(mode[3 * n], mode[3 * n + 1], mode[3 * n + 2]) :
+        Math.hypot(position[3 * n], position[3 * n + 1]) -
         Math.hypot(reference[3 * n], reference[3 * n + 1]);
     }
     for (let t = 0; t < triangles.length; t += 3) {
@@ -330,8 +339,13 @@
     const before = pointers.size === 2 ? spread() : 0;
     const here = { x: event.clientX, y: event.clientY };
     pointers.set(event.pointerId, here);
-    if (pointers.size === 1) turn(0.008 * (here.x - last.x), 0.008 * (here.y - last.y));
-    else if (before > 0) zoom(spread() / before);
+    const across = 0.008 * (here.x - last.x), up = 0.008 * (here.y - last.y);
+    // One finger that moves up or down scrolls the page; two move as one by half of each.
+    if (pointers.size === 1) turn(across, event.pointerType === "touch" ? 0 : up);
+    else if (before > 0) {
+      turn(across / 2, up / 2);
+      zoom(spread() / before);
+    }
   });
   for (const end of ["pointerup", "pointercancel"]) {
     canvas.addEventListener(end, (event) => pointers.delete(event.pointerId));
@@ -353,6 +367,11 @@
     event.preventDefault();
     keys[event.key]();
   });
+  for (const [act, across, up] of [
+    ["left", -0.2, 0], ["right", 0.2, 0], ["up", 0, -0.2], ["down", 0, 0.2],
+  ]) {
+    root.querySelector("[data-act=" + act + "]").addEventListener("click", () => turn(across, up));
+  }
   root.querySelector("[data-act=closer]").addEventListener("click", () => zoom(1.25));
   root.querySelector("[data-act=farther]").addEventListener("click", () => zoom(0.8));
   root.querySelector("[data-act=reset]").addEventListener("click", reset);

@@ -1,0 +1,142 @@
+"""What each record of a study is made of, and which code decides it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from foilstudy.base.errors import Refusal
+from foilstudy.base.fingerprint import Code, fingerprint_of_files
+from foilstudy.base.origin import Origin
+from foilstudy.base.record import AGAIN, read_record
+from foilstudy.config import Cell, CrumpleTask, RefineTask, ResponseTask, StudyConfig
+
+_CRUMPLING = (
+    "config.foils",
+    "config.scene",
+    "linalg",
+    "model",
+    "solve",
+    "pipeline.crumple",
+    "pipeline.crumpled",
+    "pipeline.method",
+    "pipeline.shape",
+)
+_MEASURING = (*_CRUMPLING, "measure", "pipeline")
+
+CRUMPLE = Code(("study.sweep.crumple",), _CRUMPLING)
+RESPONSE = Code(("study.sweep.respond",), _MEASURING)
+REFINED = Code(("study.sweep.relax_refined",), _MEASURING)
+CYLINDER = Code(("study.sweep.cylinder",), _MEASURING)
+CUBE = Code(("study.sweep.cube",), ("study.sweep.quantities",))
+EXPORT = Code(("study.sweep.export",), (*_MEASURING, "export"))
+
+PRESENTING = ("base", "plot", "present")
+"""Folders of the package that decide how a cube is shown."""
+
+_FOIL = ("sheet", "material", "thickness_um", "reference_height_mm", "seed")
+"""Sections of a task that name the realisation."""
+
+
+def physics_codes() -> dict[str, str]:
+    """Fingerprints of what crumples and of what measures, by the names of a cube's attributes."""
+    return {"crumple_code": CRUMPLE.fingerprint(), "response_code": RESPONSE.fingerprint()}
+
+
+def cell_folder(results: Path, cell: Cell) -> Path:
+    """Where the records of a realisation lie in the folder of a study."""
+    return results / "realisations" / cell.thickness_id / cell.overlength_id / str(cell.seed)
+
+
+def crumple_origin(task: CrumpleTask) -> Origin:
+    """Of a ``crumple.nc``."""
+    return Origin(task.model_dump_json(), CRUMPLE.fingerprint())
+
+
+def response_origin(task: ResponseTask, crumple: Mapping[str, Any]) -> Origin:
+    """Of a ``response.nc``; `crumple` are the attributes of the crumple's record."""
+    return Origin(task.model_dump_json(), RESPONSE.fingerprint(), (crumple["digest"],))
+
+
+def refined_origin(task: RefineTask, crumple: Mapping[str, Any]) -> Origin:
+    """Of a ``refined.nc``; `crumple` are the attributes of the crumple's record."""
+    return Origin(task.model_dump_json(), REFINED.fingerprint(), (crumple["digest"],))
+
+
+def cylinder_origin(study: StudyConfig) -> Origin:
+    """Of a ``cylinder.nc``."""
+    return Origin(study.cylinder_task(), CYLINDER.fingerprint())
+
+
+def parts_of(study: StudyConfig) -> tuple[str, ...]:
+    """Records of each realisation, by the names of their files."""
+    again = study.stiffness.relaxed_refinements > 0
+    return ("crumple", "response", "refined")[: 2 + again]
+
+
+def cube_origin(study: StudyConfig, digests: Mapping[str, np.ndarray], cylinder: str) -> Origin:
+    """Of a ``cube.nc``.
+
+    Parameters
+    ----------
+    digests : mapping of str to array of str
+        Of the records of all realisations, by `parts_of`.
+    cylinder : str
+        Of ``cylinder.nc``.
+    """
+    summary = sha256(cylinder.encode())
+    for found in digests.values():
+        for digest in np.ravel(found):
+            summary.update(f" {digest}".encode())
+    return Origin(study.model_dump_json(), CUBE.fingerprint(), (summary.hexdigest()[:16],))
+
+
+def presented_origin(cube: Mapping[str, Any]) -> Origin:
+    """Of tables, figures and page; `cube` are the attributes of the cube."""
+    return Origin(code=fingerprint_of_files(*PRESENTING), sources=(cube.get("digest", ""),))
+
+
+def export_origin(
+    task: ResponseTask, crumple: Mapping[str, Any], formats: tuple[str, ...]
+) -> Origin:
+    """Of an export folder."""
+    content = task.model_dump(mode="json") | {"formats": list(formats)}
+    return Origin(json.dumps(content), EXPORT.fingerprint(), (crumple["digest"],))
+
+
+def read_crumple(
+    path: Path, task: RefineTask | ResponseTask
+) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+    """Values and attributes of the crumple that a task goes on with.
+
+    Raises
+    ------
+    Refusal
+        If the record is unreadable, of another foil or seed, or made by other code.
+    """
+    values, attributes = read_record(path)
+    wanted = Origin(_named(task.model_dump_json()), CRUMPLE.fingerprint())
+    refuse_departure(path, Origin(_named(attributes["task"]), attributes["code"]), wanted)
+    return values, attributes
+
+
+def refuse_departure(path: Path, found: Origin, wanted: Origin) -> None:
+    """See that a record is what is wanted.
+
+    Raises
+    ------
+    Refusal
+        Naming file, difference and remedy.
+    """
+    if departure := found.departure(wanted):
+        raise Refusal(f"{path}: was made {departure}; {AGAIN}.")
+
+
+def _named(task: str) -> str:
+    content = json.loads(task)
+    return json.dumps({name: content.get(name) for name in _FOIL})
