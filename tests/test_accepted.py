@@ -113,7 +113,8 @@ def test_a_height_is_bounded_whether_given_or_as_an_overlength():
 
 
 def slips_of(**sections):
-    return likely_slips(load_config({"sweep": FOIL} | sections))
+    content = {"sweep": FOIL, "mesh": {"element_size_mm": 5}}
+    return likely_slips(load_config(content | sections))
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
