@@ -17,6 +17,7 @@ for variable in tuple(os.environ):
 for variable in ("OMP", "MKL", "OPENBLAS", "NUMBA"):
     os.environ[f"{variable}_NUM_THREADS"] = "1"
 
+
 report: "workflow/report/workflow.rst"
 
 

@@ -186,7 +186,7 @@ def test_missing_or_unreadable_file_is_one_sentence(tmp_path, command):
         "there is no such file; check the path."
     )
     assert "this is a folder" in refusal(command, tmp_path)
-    (tmp_path / "binary.yaml").write_bytes(b"\xff\xfe\x00")
+    (tmp_path / "binary.yaml").write_bytes(b"\x89HDF\x00")
     assert "not a text file" in refusal(command, tmp_path / "binary.yaml")
 
 

@@ -110,6 +110,21 @@ def test_unwritable_results_are_refused_in_one_sentence(tmp_path):
     assert len(said) == 1 and "results/tiny: cannot be written" in said[0]
 
 
+def test_numbers_of_several_files_and_of_words_follow_yaml_1_2(tmp_path):
+    (tmp_path / "other.yaml").write_text("sweep: {thickness_um: [0250], realisations: 010}\n")
+    first, *rest = command(tmp_path, TINY, "--dry-run")
+    run = subprocess.run(
+        [first, *rest[:-1], str(tmp_path / "other.yaml"), rest[-1]]
+        + ["--config", "sweep={reference_height_mm: [0150]}"],
+        capture_output=True,
+        text=True,
+        cwd=ROOT,
+        check=False,
+    )
+    assert "10 crumple" in run.stdout, run.stderr
+    assert "results/tiny/realisations/t250um/h150mm/9/crumple.nc" in run.stdout
+
+
 @pytest.mark.parametrize("place", ["results", "results/tiny"])
 def test_a_link_that_leads_nowhere_is_named(tmp_path, place):
     (tmp_path / place).parent.mkdir(exist_ok=True)

@@ -9,10 +9,12 @@ from pathlib import Path
 
 from foilstudy.base.manifest import MANIFEST
 from foilstudy.config import ConfigError, load_merged
+from foilstudy.config.slips import likely_slips
 from foilstudy.present.figures import FIGURES
 from foilstudy.present.files import StudyFiles
 from foilstudy.present.shown import shown
 from foilstudy.study.registry import refuse_reserved_name
+from foilstudy.study.sweep.expected import costly, expected
 from snakemake.logging import logger
 
 
@@ -155,6 +157,13 @@ def start_worker():
 check_results()
 
 
+def warn_of_slips():
+    """Name what is possible but most likely not meant, as `foilstudy check` does."""
+    for slip in [*likely_slips(STUDY), *costly(expected(STUDY))]:
+        logger.warning(f"Most likely a slip: {slip}")
+
+
 onstart:
+    warn_of_slips()
     claim_results()
     start_worker()

@@ -23,20 +23,24 @@ _HEADS = ("thickness", "elements", "size", "refined to", "steps", "time of each"
 def check(file: Path, /, *, cores: Cores = 2) -> None:
     """Say what a configuration means and what it will cost, or what is wrong with it.
 
-    Nothing is started. The expected cost rests on studies that were measured.
+    Nothing is started. The expected cost rests on studies that were measured. What is possible
+    but most likely a slip is named at the end.
 
     Parameters
     ----------
     file : Path
         YAML file of the study.
     """
-    from foilstudy.study.sweep.expected import expected
+    from foilstudy.config.slips import likely_slips
+    from foilstudy.study.sweep.expected import costly, expected
 
     study = read_study(file)
     cost = expected(study)
     lines = [f"{file}: no problem; results go to results/{study.study.name}.", ""]
     lines += (f"{name:10} {text}" for name, text in _resolved(study))
     lines += ["", *_table(study, cost), "", *_summary(cost, cores)]
+    if slips := [*likely_slips(study), *costly(cost)]:
+        lines += ["", "Possible, but most likely a slip:", *slips]
     print("\n".join(lines))
 
 

@@ -50,7 +50,12 @@ _RULES = """\
 - `dynamics.shown_min_hz` below `dynamics.shown_max_hz`, and that not above `dynamics.cutoff_hz`;
   `cutoff_hz` only with a modal reduction, `rayleigh_hz` only with Rayleigh damping.
 
+- Heights of at most 10 m, also where an overlength makes them; at most 20,000 realisations.
+
 Numbers follow YAML 1.2 (`1e-6` is a number, `010` is ten), and a key given twice is an error.
+Files are UTF-8, of at most 64 kB. Several files (`--configfile A B`) are laid over each other key
+by key, and words such as `--config "sweep={realisations: 2}"` over them all. `foilstudy check`
+names what is refused, and what is possible but most likely a slip of unit or size.
 """
 
 

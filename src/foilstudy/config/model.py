@@ -34,7 +34,7 @@ __all__ = ["Cell", "StudyConfig", "overlength_id", "thickness_id"]
 # Beyond this ratio transverse shear matters and Kirchhoff-Love theory ends.
 THICKNESS_TO_RADIUS_MAX = 1 / 20
 # Of all thicknesses and heights; Snakemake cannot plan more in reasonable time.
-REALISATIONS_MAX = 100_000
+REALISATIONS_MAX = 20_000
 
 
 def _plain(value: float) -> str:

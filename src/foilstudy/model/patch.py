@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -84,10 +85,16 @@ class Patch:
         return around, self.size_along * (np.arange(self.rows) - 0.5)
 
 
-def _nearest_smooth(wanted: float) -> int:
-    """The number nearest to `wanted` whose prime factors are 2, 3, 5 and 7."""
+@lru_cache(maxsize=1)
+def _smooth_numbers() -> np.ndarray:
+    """Numbers whose prime factors are 2, 3, 5 and 7."""
     powers = (float(prime) ** np.arange(16) for prime in (2, 3, 5, 7))
-    smooth = np.prod(np.meshgrid(*powers), axis=0).ravel()
+    return np.prod(np.meshgrid(*powers), axis=0).ravel()
+
+
+def _nearest_smooth(wanted: float) -> int:
+    """The one of them that is nearest to `wanted`."""
+    smooth = _smooth_numbers()
     return int(smooth[np.abs(smooth - wanted).argmin()])
 
 

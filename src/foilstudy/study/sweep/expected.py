@@ -35,6 +35,7 @@ __all__ = [
     "CostModel",
     "Expected",
     "ExpectedConfiguration",
+    "costly",
     "expected",
 ]
 
@@ -111,6 +112,10 @@ of the default study and 1.76 of the published one, on processors of different s
 MEMORY_SPREAD = 1.4
 """The same of the largest job: 1.39 and 0.97 of the expected memory."""
 
+PROCESSOR_SECONDS_MAX = 14 * 86_400
+"""Beyond it a study is most likely larger than meant: a week on two cores."""
+MEMORY_MAX_MB = 32_000
+
 
 @dataclass(frozen=True)
 class ExpectedConfiguration:
@@ -180,14 +185,30 @@ class Expected:
         return min(cores, self.realisations) * self.peak_memory_mb
 
 
+def costly(cost: Expected) -> list[str]:
+    """Sentences about a cost that is almost surely not meant; rarely any."""
+    sentences = []
+    if cost.processor_seconds > PROCESSOR_SECONDS_MAX:
+        days = cost.processor_seconds / 86_400
+        sentences.append(
+            f"The study takes about {days:.2g} days of processor time; check "
+            "mesh.element_size_mm and the length of the sweep."
+        )
+    if cost.peak_memory_mb > MEMORY_MAX_MB:
+        sentences.append(
+            f"A job takes about {cost.peak_memory_mb / 1000:.2g} GB; check mesh.element_size_mm "
+            "and the refinements."
+        )
+    return sentences
+
+
 def expected(study: StudyConfig, model: CostModel = MEASURED) -> Expected:
     """Expected cost of every realisation of a study."""
-    configurations = tuple(
-        _configuration(study, cell, model) for cell in study.cells() if cell.seed == study.seeds[0]
-    )
-    realisations = len(study.cells())
+    cells, seeds = study.cells(), len(study.seeds)
+    configurations = tuple(_configuration(study, cell, model) for cell in cells[::seeds])
+    realisations = len(cells)
     jobs = len(configurations[0].seconds_of) * realisations
-    physics = len(study.seeds) * sum(each.seconds for each in configurations)
+    physics = seeds * sum(each.seconds for each in configurations)
     seconds = physics + jobs * model.job
     total = seconds + model.gathering
     return Expected(configurations, realisations, jobs, seconds, total, model.start)

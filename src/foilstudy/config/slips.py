@@ -1,0 +1,182 @@
+"""What a configuration asks for that is possible and almost surely not meant.
+
+A refusal needs certainty; here a sentence says what looks wrong, and the study runs.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from itertools import chain
+
+from .model import StudyConfig
+
+__all__ = ["likely_slips"]
+
+THICKNESS_MIN_UM = 1.0
+"""Thinner foils are not on sale."""
+DIAMETER_RANGE_MM = (5.0, 5_000.0)
+ASPECT_RANGE = (0.05, 10.0)
+"""Gap over diameter, from a ring to a tube."""
+OVERLENGTH_RANGE_PERCENT = (0.1, 300.0)
+MODULUS_RANGE_MPA = (10.0, 450_000.0)
+"""From rubber to tungsten."""
+METAL_DENSITY_KG_M3, METAL_MODULUS_MPA = 2_400.0, 10_000.0
+"""No polymer is denser, no metal foil softer."""
+DENSITY_RANGE_KG_M3 = (300.0, 23_000.0)
+YIELD_STRAIN_RANGE = (1e-4, 0.2)
+AMPLITUDE_MAX = 10.0
+"""Of an imperfection, over the thickness."""
+TOLERANCE_RANGE = (1e-12, 1e-3)
+RAMP_STEPS_MIN = 100
+ELEMENTS_MAX = 200_000
+"""Of the mesh that is crumpled: ten times the finest of docs/convergence.md."""
+
+
+def likely_slips(study: StudyConfig) -> list[str]:
+    """Sentences about what is almost surely a slip, with key, value and reason."""
+    return list(
+        chain(
+            _of_sizes(study),
+            _of_heights(study),
+            _of_material(study),
+            _of_numerics(study),
+            _of_mesh_and_band(study),
+        )
+    )
+
+
+def _outside(value: float, bounds: tuple[float, float]) -> bool:
+    return not bounds[0] <= value <= bounds[1]
+
+
+def _those(values: Sequence[float]) -> str:
+    """One value, or the range of several."""
+    low, high = min(values), max(values)
+    return f"{low:g}" if low == high else f"{low:g} to {high:g}"
+
+
+def _of_sizes(study: StudyConfig) -> Iterator[str]:
+    thin = [value for value in study.thicknesses_um if value < THICKNESS_MIN_UM]
+    if thin:
+        yield (
+            f"sweep.thickness_um holds {_those(thin)} um, thinner than any foil on sale; check "
+            "that it is in um."
+        )
+    diameter, gap = study.sheet.diameter_mm, study.sheet.gap_height_mm
+    if _outside(diameter, DIAMETER_RANGE_MM):
+        yield f"sheet.diameter_mm is {diameter:g} mm; check that it is in mm."
+    if _outside(gap / diameter, ASPECT_RANGE):
+        yield (
+            f"sheet.gap_height_mm is {gap:g} mm beside sheet.diameter_mm of {diameter:g} mm, "
+            f"{gap / diameter:.2g} of it; check that both are in mm."
+        )
+
+
+def _of_heights(study: StudyConfig) -> Iterator[str]:
+    least, most = OVERLENGTH_RANGE_PERCENT
+    key = "reference_height_mm" if study.sweep.reference_height_mm else "overlength_percent"
+    low = [value for value in study.overlengths_percent if value < least]
+    high = [value for value in study.overlengths_percent if value > most]
+    if low:
+        yield (
+            f"sweep.{key} makes an overlength of {_those(low)} %, a hair above the gap, where "
+            "hardly anything crumples; check height and gap."
+        )
+    if high:
+        yield (
+            f"sweep.{key} makes an overlength of {_those(high)} %, far beyond the published ones "
+            "(4 to 92 %); check height and gap."
+        )
+
+
+def _of_material(study: StudyConfig) -> Iterator[str]:
+    material = study.material
+    modulus, density = material.youngs_modulus_mpa, material.density_kg_m3
+    if modulus < MODULUS_RANGE_MPA[0] or (
+        modulus < METAL_MODULUS_MPA and density > METAL_DENSITY_KG_M3
+    ):
+        yield (
+            f"material.youngs_modulus_mpa is {modulus:g} MPa, too soft for a foil of "
+            f"{density:g} kg/m3; check that it is not in GPa ({1000 * modulus:g} MPa then)."
+        )
+    elif modulus > MODULUS_RANGE_MPA[1]:
+        yield (
+            f"material.youngs_modulus_mpa is {modulus:g} MPa, stiffer than tungsten; check that "
+            "it is in MPa."
+        )
+    if _outside(density, DENSITY_RANGE_KG_M3):
+        hint = f", not in g/cm3 ({1000 * density:g} kg/m3 then)" if density < 25 else ""
+        yield (
+            f"material.density_kg_m3 is {density:g} kg/m3, which no foil has; check that it is in "
+            f"kg/m3{hint}."
+        )
+    strain = material.yield_stress_mpa / modulus
+    if _outside(strain, YIELD_STRAIN_RANGE):
+        yield (
+            f"material.yield_stress_mpa is {material.yield_stress_mpa:g} MPa, {100 * strain:.2g} % "
+            "of Young's modulus; check that both are in MPa."
+        )
+    if material.poisson_ratio < 0:
+        yield (
+            f"material.poisson_ratio is {material.poisson_ratio:g}: the foil widens as it is "
+            "pulled; check its sign."
+        )
+
+
+def _of_numerics(study: StudyConfig) -> Iterator[str]:
+    amplitude, thinnest = study.imperfection.amplitude_um, study.thicknesses_um[0]
+    if amplitude > AMPLITUDE_MAX * thinnest:
+        yield (
+            f"imperfection.amplitude_um is {amplitude:g} um, {amplitude / thinnest:.2g} times the "
+            f"thickness of {thinnest:g} um, a crumple by itself; check that it is in um."
+        )
+    relaxation = study.relaxation
+    tolerance = relaxation.residual_tolerance
+    if tolerance < TOLERANCE_RANGE[0]:
+        yield (
+            f"relaxation.residual_tolerance is {tolerance:g}, below what rounding allows; no "
+            "crumple may reach it."
+        )
+    elif tolerance > TOLERANCE_RANGE[1]:
+        yield (
+            f"relaxation.residual_tolerance is {tolerance:g}, so large that a crumple need not be "
+            "in equilibrium; check its exponent."
+        )
+    if relaxation.ramp_steps < RAMP_STEPS_MIN:
+        yield (
+            f"relaxation.ramp_steps is {relaxation.ramp_steps}, in which the foil cannot follow "
+            "the ring; use some hundreds."
+        )
+
+
+def _of_mesh_and_band(study: StudyConfig) -> Iterator[str]:
+    longest, circumference = study.reference_heights_mm[-1], math.pi * study.sheet.diameter_mm
+    sizes = {t: study.mesh_of(t).element_size_mm for t in study.thicknesses_um}
+    thickness, size = min(sizes.items(), key=lambda item: item[1])
+    elements = longest * circumference / size**2
+    if elements > ELEMENTS_MAX:
+        yield (
+            f"mesh.element_size_mm is {size:g} mm for {thickness:g} um, which makes {elements:.2g} "
+            "elements on the longest cylinder; check that it is in mm, and see what the study "
+            "costs."
+        )
+    highest = study.dynamics.shown_max_hz
+    wave = {t: _bending_wave_mm(study, t, highest) / size for t, size in sizes.items()}
+    thickness, elements = min(wave.items(), key=lambda item: item[1])
+    if elements < 1:
+        yield (
+            f"dynamics.shown_max_hz is {highest:g} Hz, where a bending wave of foil of "
+            f"{thickness:g} um is {elements * sizes[thickness]:.2g} mm long, shorter than an "
+            f"element ({sizes[thickness]:g} mm); lower it, or refine mesh.element_size_mm."
+        )
+
+
+def _bending_wave_mm(study: StudyConfig, thickness_um: float, frequency_hz: float) -> float:
+    """Length of a bending wave in the flat foil."""
+    material, thickness = study.material, thickness_um * 1e-6
+    modulus = material.youngs_modulus_mpa * 1e6
+    bending = modulus * thickness**3 / (12 * (1 - material.poisson_ratio**2))
+    mass = material.density_kg_m3 * thickness
+    omega = 2 * math.pi * frequency_hz
+    return 2e3 * math.pi * (bending / mass) ** 0.25 / math.sqrt(omega)
