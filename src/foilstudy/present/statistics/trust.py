@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from foilstudy.model.mesh_size import SLENDERNESS_MAX
 from foilstudy.present.comparison import studied_case
 from foilstudy.present.statistics.cells import good, relative_mesh_error
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 ERROR_MAX = 0.2
 """Largest stated mesh error, a share of the value, of a stiffness that is trusted."""
@@ -34,12 +38,12 @@ class Trust:
         is not stated; that is larger than `ERROR_MAX`.
     """
 
-    slenderness: object
-    mesh_error: object
-    known: object
-    unresolved: object
-    unstated: object
-    inaccurate: object
+    slenderness: xr.DataArray
+    mesh_error: xr.DataArray
+    known: xr.DataArray
+    unresolved: xr.DataArray
+    unstated: xr.DataArray
+    inaccurate: xr.DataArray
 
     @property
     def trusted(self):
