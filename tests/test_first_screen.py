@@ -428,3 +428,9 @@ def test_findings_are_of_trusted_configurations_and_every_section_recalls_the_do
         assert "Do not trust the stiffness of 10 of 20 configurations." in words(
             section(page, name)
         )
+
+
+def test_levels_are_compared_where_the_stiffness_is_trusted(tmp_path):
+    text = words(section(written(CASES["thin foil not resolved"](), tmp_path), "law"))
+    # the geometric middle of 250 and 500 um, not of all four thicknesses
+    assert "mid-sweep is 354 µm and 24.6 %, the middle of what is trusted." in text

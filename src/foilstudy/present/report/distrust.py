@@ -25,6 +25,8 @@ class Banner:
     ----------
     verdict : str
         How much of the study is not trusted.
+    partial : bool
+        Whether the rest of it is.
     reasons : tuple of str
         Why, with the configurations named.
     consequence : str
@@ -34,6 +36,7 @@ class Banner:
     """
 
     verdict: str
+    partial: bool
     reasons: tuple[str, ...]
     consequence: str
     cures: tuple[Cure, ...]
@@ -52,16 +55,11 @@ def banner(cube, trust: Trust) -> Banner | None:
         *_inaccurate(trust),
         *_unstated(trust, refinements),
     ]
-    return Banner(_verdict(count, known), tuple(reasons), _consequence(trust), _cures(cube, trust))
-
-
-def _verdict(count: int, known: int) -> str:
-    if count == known:
-        return "Do not trust any stiffness of this study yet."
-    return (
-        f"Do not trust the stiffness of {count} of {plural(known, 'configuration')}, marked “?” "
-        "above."
-    )
+    verdict = "Do not trust any stiffness of this study yet."
+    if count < known:
+        configurations = plural(known, "configuration")
+        verdict = f"Do not trust the stiffness of {count} of {configurations}."
+    return Banner(verdict, count < known, tuple(reasons), _consequence(trust), _cures(cube, trust))
 
 
 def _unresolved(trust: Trust):

@@ -170,9 +170,10 @@ def read_laws(
         laws = {source: _law(source, rows.loc[source]) for source in present}
         trusted, known = int(cells["trusted"].sum()), int((cells["n"] > 0).sum())
         ours = next(iter(laws.values()))
+        middle = _middle(summary)
         # Beside a law that is not trusted nothing is steeper or flatter.
         named = [
-            law if law is ours or not trusted else _with_differences(ours, law, cells)
+            law if law is ours or not trusted else _with_differences(ours, law, middle)
             for law in laws.values()
         ]
         directions.append(DirectionLaws(str(direction), tuple(named), trusted, known, scale))
@@ -189,7 +190,7 @@ def _law(source: str, row: pd.Series) -> Law:
     return Law(source, SOURCES[source], **coefficients, **numbers, note=note)
 
 
-def _with_differences(ours: Law, other: Law, cells: pd.DataFrame) -> Law:
+def _with_differences(ours: Law, other: Law, middle: tuple[float, float]) -> Law:
     """Say how the other law differs from ours, and by how much at the middle of the sweep.
 
     What a law of this study leaves out stands there, too.
@@ -202,7 +203,6 @@ def _with_differences(ours: Law, other: Law, cells: pd.DataFrame) -> Law:
         for name in ("beta", "gamma")
         if (text := _difference(name, getattr(ours, name), getattr(other, name)))
     ]
-    middle = _geometric_mean(cells["overlength_percent"]), _geometric_mean(cells["thickness_um"])
     ratio = other.law.stiffness(*middle) / ours.law.stiffness(*middle)
     level = "equally" if fixed(ratio, 1) == "1.0" else f"{number(ratio, 2)} times as"
     words.append(f"{level} stiff mid-sweep")
@@ -211,9 +211,15 @@ def _with_differences(ours: Law, other: Law, cells: pd.DataFrame) -> Law:
 
 def middle_of_sweep(summary: pd.DataFrame) -> str:
     """Name the point of the sweep at which the levels of two laws are compared."""
-    overlength = _geometric_mean(summary["overlength_percent"])
-    thickness = _geometric_mean(summary["thickness_um"])
+    overlength, thickness = _middle(summary)
     return f"{number(thickness)} µm and {number(overlength)} %"
+
+
+def _middle(summary: pd.DataFrame) -> tuple[float, float]:
+    """Geometric middle of the overlengths (%) and thicknesses (um) that are trusted, if any are."""
+    trusted = summary[summary["trusted"].astype(bool)]
+    rows = trusted if len(trusted) else summary
+    return _geometric_mean(rows["overlength_percent"]), _geometric_mean(rows["thickness_um"])
 
 
 def _difference(name: str, ours: Exponent, other: Exponent) -> str:

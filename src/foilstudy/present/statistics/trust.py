@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -10,6 +11,9 @@ from foilstudy.model.mesh_size import SLENDERNESS_MAX
 from foilstudy.model.shell.folding import FOLD_ANGLE_MAX_DEG
 from foilstudy.present.comparison import studied_case
 from foilstudy.present.statistics.cells import good, measured, relative_mesh_error
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 ERROR_MAX = 0.2
 """Largest stated mesh error, a share of the value, of a stiffness that is trusted."""
@@ -39,14 +43,14 @@ class Trust:
         larger than `ERROR_MAX`.
     """
 
-    slenderness: object
-    fold_angle: object
-    mesh_error: object
-    known: object
-    unresolved: object
-    folded: object
-    unstated: object
-    inaccurate: object
+    slenderness: xr.DataArray
+    fold_angle: xr.DataArray
+    mesh_error: xr.DataArray
+    known: xr.DataArray
+    unresolved: xr.DataArray
+    folded: xr.DataArray
+    unstated: xr.DataArray
+    inaccurate: xr.DataArray
 
     @property
     def trusted(self):
