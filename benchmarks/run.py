@@ -56,6 +56,7 @@ def task_study(height_mm: float, **relaxation):
                 "reference_height_mm": [height_mm],
                 "realisations": 1,
             },
+            "mesh": {"element_size_mm": 5},
             "relaxation": relaxation,
         }
     )
