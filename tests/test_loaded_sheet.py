@@ -194,8 +194,22 @@ def test_a_load_that_nothing_holds_is_reported_and_not_followed():
     )
     path = follow_load(loaded, [1e3])
     assert path.status == "not_converged"
-    assert "no equilibrium beyond load factor 0" in path.message
+    assert path.message.endswith("load factor 0: the supports leave 3 rigid motions free")
     assert path.equilibria == ()
+
+
+def test_the_rigid_motions_that_supports_leave_are_counted():
+    sheet = strip()
+    load = edge_load(sheet.patch, sheet.reference, "top", np.array([0, 0, 1.0]))
+
+    def free(edges, holds):
+        return LoadedSheet(sheet, constraints(sheet.patch, edges, holds), load).rigid_freedoms()
+
+    corner = [PointHold((0.0, 0.0), axis) for axis in range(3)]
+    assert free({}, []) == 6
+    assert free({}, corner[:1]) == 5 and free({}, corner) == 3
+    assert free({}, [*corner, *(PointHold((0.0, 1.0), axis) for axis in range(3))]) == 1
+    assert free({"bottom": clamped(sheet.patch, sheet.reference, "bottom")}, []) == 0
 
 
 # --- buckling ------------------------------------------------------------------------------------

@@ -27,7 +27,8 @@ from foilstudy.solve.choices import DAMPINGS, MASSES, PATHS, SEARCHES
 CORRELATION_LENGTH_DEFAULT_MM = 15.0
 TEXT_MAX = 200
 # Any characters of any language, and several lines, but none that no file or terminal can show.
-TEXT = {"min_length": 1, "max_length": TEXT_MAX, "pattern": r"^[^\x00-\x08\x0B-\x1F\x7F]*$"}
+_SHOWN = r"^[^\x00-\x08\x0B-\x1F\x7F-\x9F\u2028\u2029]*$"
+TEXT = {"min_length": 1, "max_length": TEXT_MAX, "pattern": _SHOWN}
 CONSTANTS = ("youngs_modulus_mpa", "poisson_ratio", "density_kg_m3", "yield_stress_mpa")
 
 

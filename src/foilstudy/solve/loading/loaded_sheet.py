@@ -10,6 +10,9 @@ from foilstudy.model.supports.edges import Constraints
 from foilstudy.model.supports.loads import Load, Loading
 from foilstudy.solve.problem import Problem
 
+_FREE = 1e-9
+"""Share of a rigid motion that supports may take before they hold it."""
+
 
 class LoadedSheet:
     """Strain energy minus the work of a load, as a function of the free unknowns.
@@ -68,6 +71,22 @@ class LoadedSheet:
     def hessian(self, q: np.ndarray) -> sparse.csr_matrix:
         """Tangent on the unknowns, load stiffness included; see `newton.Potential`."""
         return self.constraints.reduced_matrix(self._problem.tangent(self.points(q)))
+
+    def rigid_freedoms(self) -> int:
+        """Small rigid motions of the base shape that the supports do not hold, 0 to 6.
+
+        A motion is free where it keeps to the supports, that is, where they take nothing of it.
+        """
+        centred = self._base - self._base.mean(axis=(1, 2), keepdims=True)
+        x, y, z = centred
+        zero, one = np.zeros_like(x), np.ones_like(x)
+        turns = [(zero, -z, y), (z, zero, -x), (-y, x, zero)]
+        shifts = [(one, zero, zero), (zero, one, zero), (zero, zero, one)]
+        motions = np.array([np.array(motion).ravel() for motion in (*shifts, *turns)]).T
+        motions, _ = np.linalg.qr(motions)
+        shape = self._base.shape
+        kept = np.array([self.constraints.reduced(motion.reshape(shape)) for motion in motions.T])
+        return int((np.linalg.eigvalsh(kept @ kept.T) > 1 - _FREE).sum())
 
     def rounding(self) -> float:
         """Norm of the force that rounding leaves on a shape without any, N.

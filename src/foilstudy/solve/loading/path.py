@@ -77,6 +77,9 @@ def follow_load(
     start : ndarray, shape (3, rows, columns), optional
         Control points to begin with, m; the base shape by default.
     """
+    if free := loaded.rigid_freedoms():
+        why = f"no equilibrium beyond load factor 0: the supports leave {free} rigid motions free"
+        return LoadPath("not_converged", why, ())
     unknowns = np.zeros(loaded.constraints.free)
     if start is not None:
         unknowns = loaded.unknowns(start)
