@@ -15,6 +15,7 @@ from foilstudy import open_cube
 from foilstudy.present.figures import FIGURES
 from foilstudy.present.files import StudyFiles
 from foilstudy.present.redraw import redraw
+from foilstudy.present.shown import note_origin
 from foilstudy.present.statistics.tables import TABLES
 
 THESIS = Path(__file__).parents[1] / "results" / "thesis"
@@ -52,14 +53,17 @@ def test_cube_with_its_records_gives_everything(folder):
 
 
 def test_cube_alone_keeps_the_pictures_that_it_cannot_draw(folder):
-    picture = folder / "figures" / "morphology.png"
+    picture, other = (folder / "figures" / f"{name}.png" for name in ("morphology", "seeds"))
     picture.parent.mkdir()
-    matplotlib.image.imsave(picture, np.eye(9))
+    for path in (picture, other):
+        matplotlib.image.imsave(path, np.eye(9))
+    note_origin(StudyFiles(folder / "cube.nc"), [picture])  # the other may be of any cube
     before = picture.read_bytes()
     redrawn = redraw(folder / "cube.nc")
     assert redrawn.kept == ["morphology"]
     assert set(redrawn.left_out) == set(OF_RECORDS) - {"morphology"}
     assert picture.read_bytes() == before and picture not in redrawn.written
+    assert redraw(folder / "cube.nc").kept == ["morphology"]
     page = (folder / "report.html").read_text("utf-8")
     assert figures_in(page) == set(FIGURES) - set(redrawn.left_out)
     assert "records of the realisations are not in the folder" in page

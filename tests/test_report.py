@@ -332,7 +332,7 @@ def test_damaged_shape_is_named(tmp_path):
     path = write_crumple(tmp_path / "crumple.nc")
     with netCDF4.Dataset(path, "a") as data:
         data["surface"][0, 0, 0] = 1.0
-    with pytest.raises(ValueError, match="crumple.nc: its values are not those that were written"):
+    with pytest.raises(ValueError, match="crumple.nc: holds other values than were written"):
         pack_shape(*choose_shapes([path]))
 
 

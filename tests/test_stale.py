@@ -18,9 +18,11 @@ from foilstudy.base.origin import Origin
 from foilstudy.base.record import read_record
 from foilstudy.config import load_config
 from foilstudy.present.files import StudyFiles
+from foilstudy.present.redraw import redraw
 from foilstudy.present.shown import shown
 from foilstudy.study.stale import sentences
 from foilstudy.study.sweep import origins
+from foilstudy.study.sweep.crumple import crumple_job
 from foilstudy.study.sweep.cube import gather
 from foilstudy.study.sweep.export import contents_of, recorded_task
 from foilstudy.study.sweep.relax_refined import refine_job
@@ -196,6 +198,21 @@ def test_a_spoilt_record_is_named_and_made_again_and_no_outcome(results, spoil, 
         assert (results / FIRST / "response.nc").read_bytes() == response
 
 
+def test_altered_words_of_a_record_are_noticed_like_its_values(results):
+    """The foil by which a response would go on, not only what stands in the arrays."""
+    with netCDF4.Dataset(results / FIRST / "crumple.nc", "a") as file:
+        file.foil = file.foil.replace("0.0005", "0.0009")
+    assert stale(results)[f"{FIRST}/crumple.nc"] == "holds other values than were written"
+
+
+def test_an_altered_cube_is_gathered_again_and_not_shown(results):
+    with netCDF4.Dataset(results / "cube.nc", "a") as file:
+        file["static_stiffness"][0] = 2 * file["static_stiffness"][0]
+    assert stale(results)["cube.nc"] == "holds other values than were written"
+    with pytest.raises(Refusal, match="cube.nc: holds other values than were written; run"):
+        redraw(results)
+
+
 @pytest.mark.parametrize("spoil", SPOILT[:4])
 def test_a_spoilt_cube_is_gathered_again(results, spoil):
     spoil(results / "cube.nc")
@@ -243,8 +260,12 @@ def test_other_code_makes_again_what_it_decides(results, monkeypatch):
             patch.setattr(Code, "fingerprint", _changed(getattr(origins, name)))
             found = stale(results)
         assert {Path(n).name for n, reason in found.items() if "other code" in reason} == set(made)
+    shown_again = {".csv", ".png", ".svg", ".html"}
+    with monkeypatch.context() as patch:
+        patch.setattr(Code, "fingerprint", _changed(origins.PRESENTING))
+        assert {Path(name).suffix for name in stale(results)} == shown_again
     monkeypatch.setattr(origins, "fingerprint_of_files", lambda *_: "other")
-    assert {Path(n).suffix for n in stale(results)} == {".csv", ".png", ".svg", ".html"}
+    assert {Path(name).suffix for name in stale(results)} == shown_again
 
 
 def _changed(code):
@@ -259,6 +280,27 @@ def test_what_is_shown_is_not_to_be_swapped_either(results, name):
     assert stale(results) == {path.relative_to(results).as_posix(): "was changed since it was made"}
     (results / "manifest.json").write_text("{")
     assert len(stale(results)) == len(shown(StudyFiles(results / "cube.nc")))
+
+
+def test_an_export_that_is_no_folder_is_made_again(results):
+    shutil.rmtree(results / FIRST / "export")
+    (results / FIRST / "export").write_text("no folder")
+    assert stale(results) == {f"{FIRST}/export": "is not complete"}
+
+
+def test_an_edit_during_a_job_does_not_reach_its_record(tmp_path, monkeypatch):
+    """The code counts as it was when the job began."""
+    cell, path = STUDY.cells()[0], tmp_path / "crumple.nc"
+    before = origins.CRUMPLE.fingerprint()
+    true = sys.modules["foilstudy.study.sweep.crumple"].crumple
+
+    def edited(*arguments):
+        monkeypatch.setattr(Code, "fingerprint", lambda code: "edited")
+        return true(*arguments)
+
+    monkeypatch.setattr(sys.modules["foilstudy.study.sweep.crumple"], "crumple", edited)
+    crumple_job(STUDY.crumple_task(cell), path)
+    assert read_record(path)[1]["code"] == before
 
 
 def test_an_export_of_mixed_records_is_refused(results):
@@ -314,10 +356,12 @@ def test_the_code_of_a_crumple_is_what_crumples():
     assert {"model.shell.elements.corner_kernel", "solve.equilibrium.settle", "linalg.pardiso",
             "model.imperfections.buckling_modes", "config.scene"} <= set(modules)  # fmt: skip
     rooms = {module.partition(".")[0] for module in modules}
-    assert rooms == {"config", "linalg", "model", "solve", "pipeline", "study"}
+    assert rooms == {"base", "config", "linalg", "model", "solve", "pipeline", "study"}
     responding = set(origins.RESPONSE.modules())
     assert {"measure.dynamics.reductions.rational_krylov", "pipeline.static"} <= responding
-    assert not any(m.startswith(("present", "plot", "base")) for m in responding)
+    assert not any(m.startswith(("present", "plot", "export")) for m in responding)
+    showing = set(origins.PRESENTING.modules())
+    assert {"measure.isolation.limits", "study.sweep.expected", "config.model"} <= showing
 
 
 RUN = """
@@ -365,9 +409,7 @@ def test_nothing_that_runs_is_left_out_of_the_code():
     for name, others in found.items():
         # base writes and reads, config checks the task, which is compared by itself
         others = {other for other in others if not other.startswith(("base.", "config"))}
-        assert others <= {
-            "study.sweep.origins", "study.sweep.outcome", "study.sweep.quantities",
-        }, name  # fmt: skip
+        assert others <= {"study.sweep.origins", "study.sweep.quantities"}, name
 
 
 def test_few_lines_tell_why_many_files_are_made_again(results):

@@ -12,7 +12,7 @@ from pathlib import Path
 from foilstudy.base.files import read_json, write_json
 from foilstudy.base.origin import Origin
 
-__all__ = ["MANIFEST", "listed", "outdated", "write_manifest"]
+__all__ = ["MANIFEST", "listed", "noted_origin", "outdated", "write_manifest"]
 
 MANIFEST = "manifest.json"
 
@@ -22,6 +22,14 @@ def write_manifest(folder: Path, origin: Origin, files: Iterable[Path]) -> Path:
     sums = {path.relative_to(folder).as_posix(): _sum(path) for path in files if path.is_file()}
     write_json(origin.attributes() | {"sha256": sums}, folder / MANIFEST)
     return folder / MANIFEST
+
+
+def noted_origin(folder: Path) -> Origin:
+    """The origin in the manifest of a folder; an empty one without a manifest."""
+    try:
+        return Origin.of(read_json(folder / MANIFEST))
+    except (OSError, ValueError, AttributeError):
+        return Origin()
 
 
 def listed(folder: Path) -> list[Path]:
@@ -42,7 +50,7 @@ def outdated(folder: Path, origin: Origin, files: Iterable[Path]) -> dict[Path, 
         manifest = read_json(folder / MANIFEST)
         departure, sums = Origin.of(manifest).departure(origin), dict(manifest["sha256"])
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
-        departure, sums = "by a run that did not end", {}
+        departure, sums = "by a run that did not end, or the manifest is damaged", {}
     if departure:
         return dict.fromkeys(there, f"was made {departure}")
     return {

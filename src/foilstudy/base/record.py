@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass
-from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 import netCDF4
 import numpy as np
 
+from foilstudy.base.digest import digest_of
 from foilstudy.base.errors import Refusal
 from foilstudy.base.files import written_whole
 from foilstudy.base.origin import Origin
@@ -25,6 +26,8 @@ AGAIN = "run the study again, which makes it anew"
 
 _COSTS = ("seconds_", "peak_memory")
 """Beginnings of the names of quantities that differ from run to run."""
+_ADDED = ("task", "code", "made_from", "digest", "git_commit", "package_versions")
+"""Attributes that `write_record` adds to those it is given."""
 
 
 @dataclass(frozen=True)
@@ -110,7 +113,7 @@ def read_record(path: Path) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
     except (OSError, RuntimeError) as error:
         raise _unreadable(path, error) from None
     if _digest(values, attributes) != attributes["digest"]:
-        raise Refusal(f"{path}: its values are not those that were written; {AGAIN}.")
+        raise Refusal(f"{path}: holds other values than were written; {AGAIN}.")
     return values, attributes
 
 
@@ -121,12 +124,6 @@ def _unreadable(path: Path, error: Exception) -> Refusal:
 
 def _digest(values: Mapping[str, np.ndarray], attributes: Mapping[str, Any]) -> str:
     """Of everything that the task decides, and so not of what it has cost."""
-    summary = sha256()
-    for name in ("status", "message"):
-        summary.update(f"{attributes.get(name, '')}\0".encode())
-    for name in sorted(values):
-        if not name.startswith(_COSTS):
-            array = np.ascontiguousarray(values[name])
-            summary.update(f"{name} {array.dtype.str} {array.shape}\0".encode())
-            summary.update(array.tobytes())
-    return summary.hexdigest()[:16]
+    decided = {name: values[name] for name in values if not name.startswith(_COSTS)}
+    words = {name: str(text) for name, text in attributes.items() if name not in _ADDED}
+    return digest_of(decided, json.dumps(words, sort_keys=True))

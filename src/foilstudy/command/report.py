@@ -22,4 +22,5 @@ def report(results: Path, /) -> None:
         print(f"wrote {path}")
     for names, what in ((redrawn.kept, "left as they were"), (redrawn.left_out, "left out")):
         if names:
-            print(f"{what}, as the records of the realisations are not there: {', '.join(names)}")
+            why = "the records of the realisations are not there, or not those of this cube"
+            print(f"{what}, as {why}: {', '.join(names)}")

@@ -28,10 +28,13 @@ class StudyFiles:
         their places beside it.
     crumple_paths : tuple of Path
         ``crumple.nc`` of the realisations. The response of a realisation lies beside its crumple.
+    left_out : frozenset of str
+        Ids of figures that the page does not show though there may be a picture of that name.
     """
 
     cube_path: Path
     crumple_paths: tuple[Path, ...] = ()
+    left_out: frozenset[str] = frozenset()
 
     @classmethod
     def found(cls, cube_path: Path) -> StudyFiles:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import chain
 from pathlib import Path
 
+from foilstudy.base.cube import CONTENT, verified_attributes
+from foilstudy.base.manifest import noted_origin, outdated
 from foilstudy.present.figures import FIGURES, FigureSpec, draw_figures
 from foilstudy.present.files import StudyFiles
 from foilstudy.present.report import write_report
 from foilstudy.present.shown import note_origin
 from foilstudy.present.statistics.tables import write_tables
+from foilstudy.study.sweep.origins import presented_origin
 
 
 @dataclass(frozen=True)
@@ -21,10 +25,10 @@ class Redrawn:
     written : list of Path
         Tables, figures and page.
     kept : list of str
-        Ids of the figures that need records which are not there, and whose picture of before
-        stands in the page.
+        Ids of the figures that need records which are not there, or not those of the cube, and
+        whose picture of before stands in the page.
     left_out : list of str
-        Ids of those that had no picture.
+        Ids of those that had no picture of this cube.
     """
 
     written: list[Path]
@@ -45,18 +49,30 @@ def redraw(results: str | Path) -> Redrawn:
     Raises
     ------
     Refusal
-        If there is no cube, or if it is not one of this package.
+        If there is no cube, if it is not one of this package, or if it was altered.
     """
     results = Path(results)
     files = StudyFiles.found(results / "cube.nc" if results.is_dir() else results)
+    if CONTENT in files.cube.attrs:  # from release 0.4 on
+        verified_attributes(files.cube_path)
     drawn = [name for name, figure in FIGURES.items() if _can_be_drawn(figure, files)]
     missing = [name for name in FIGURES if name not in drawn]
-    kept = [name for name in missing if any(files.figures.glob(f"{name}.*"))]
+    kept = {name: paths for name in missing if (paths := _of_this_cube(files, name))}
+    left_out = [name for name in missing if name not in kept]
+    files = replace(files, left_out=frozenset(left_out))
     written = write_tables(files.cube, files.folder)
     written += draw_figures(drawn, files, files.figures)
     written.append(write_report(files, files.page))
-    note_origin(files, written)
-    return Redrawn(written, kept, [name for name in missing if name not in kept])
+    note_origin(files, [*written, *chain.from_iterable(kept.values())])
+    return Redrawn(written, list(kept), left_out)
+
+
+def _of_this_cube(files: StudyFiles, name: str) -> list[Path]:
+    """Pictures of a figure that were drawn for the cube as it is, by whatever code."""
+    pictures = sorted(files.figures.glob(f"{name}.*"))
+    origin = replace(presented_origin(files.cube.attrs), code=noted_origin(files.folder).code)
+    other = outdated(files.folder, origin, pictures)
+    return [path for path in pictures if path not in other]
 
 
 def _can_be_drawn(figure: FigureSpec, files: StudyFiles) -> bool:

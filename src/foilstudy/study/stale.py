@@ -36,7 +36,8 @@ def sentences(folder: str, found: Iterable[Stale]) -> list[str]:
     for each in found:
         by_reason.setdefault(each.reason, []).append(each.path.name)
     lines = [
-        f"{folder}: {_what(names)} {reason}; made again." for reason, names in by_reason.items()
+        f"{folder}: {_what(names)} {reason}; made again where it is needed."
+        for reason, names in by_reason.items()
     ]
     more = len(lines) - SHOWN
     return lines if more <= 0 else [*lines[:SHOWN], f"{folder}: and for {more} reasons more."]

@@ -25,6 +25,7 @@ from pkgutil import resolve_name
 from typing import NamedTuple
 
 from foilstudy.base.provenance import git_commit
+from foilstudy.study.sweep.origins import remember_codes
 from foilstudy.study.sweep.warmup import compile_kernels
 
 _STANDARD_STREAMS = 3
@@ -52,6 +53,7 @@ def work(again: bool) -> None:
         # A kernel just compiled may differ in its last bits from the same one out of the cache.
         os.execv(sys.executable, [sys.executable, *sys.orig_argv[1:], "again"])
     git_commit()  # that of the code loaded here; it may change before a job asks
+    remember_codes()
     with tempfile.TemporaryDirectory(prefix="foilstudy-") as folder:
         listener = _listening(f"{folder}/worker")
         print(listener.getsockname() if listener else "", flush=True)

@@ -174,7 +174,7 @@ def _content(files: StudyFiles, folder: Path) -> dict:
         "equilibrium_words": equilibrium.equilibrium_findings(settling),
         "health": health,
         "health_words": findings.health_sentence(health),
-        "figures": _figures(files.figures, _seen(said)),
+        "figures": _figures(files, _seen(said)),
         "viewer": shapes,
         "has_records": bool(files.crumple_paths),
         "gradient": _gradient(viewer.colour_table()),
@@ -251,15 +251,17 @@ def _seen(said: Mapping[str, list[str]]) -> dict[str, list[str]]:
     return by_direction | {name: said[words] for name, words in sources.items()}
 
 
-def _figures(folder: Path, seen: Mapping[str, list[str]]) -> dict[str, list[Figure]]:
+def _figures(files: StudyFiles, seen: Mapping[str, list[str]]) -> dict[str, list[Figure]]:
     """Embed every figure of the study that there is, by section."""
-    stems = {path.stem for path in Path(folder).glob("*") if path.suffix in (".png", ".svg")}
+    folder = Path(files.figures)
+    stems = {path.stem for path in folder.glob("*") if path.suffix in (".png", ".svg")}
+    stems -= files.left_out
     placed = {stem: name for name, order in SECTIONS.items() for stem in order}
     sections: dict[str, list[Figure]] = {name: [] for name in (*SECTIONS, "other")}
     for stem in [*placed, *(stem for stem in FIGURES if stem not in placed)]:
         if stem in stems:
             entry = FIGURES[stem]
-            picture = _picture(Path(folder), stem)
+            picture = _picture(folder, stem)
             sections[placed.get(stem, "other")].append(
                 Figure(
                     stem, entry.title, entry.caption, alt_text(stem, entry.title, seen), *picture

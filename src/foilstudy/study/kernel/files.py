@@ -8,16 +8,15 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import asdict, is_dataclass, replace
-from hashlib import sha256
 from pathlib import Path
-from typing import Any
 from zipfile import BadZipFile
 
 import numpy as np
 
 from foilstudy.base.costs import Cost, measured
+from foilstudy.base.digest import digest_of
 from foilstudy.base.errors import Refusal
 from foilstudy.base.files import json_text, read_json_text, write_json, written_whole
 from foilstudy.base.manifest import outdated, write_manifest
@@ -47,6 +46,7 @@ def measure(
     records: Records = {name: {} for name in plan.needs}
     for other in (read_record(study, path) for path in needed):
         records[other.part][other.case] = other
+    _ = plan.code  # as it is before it is loaded
     if isinstance(plan.measure, Lazy):
         plan.measure.load()  # which is no cost of the case
     with measured() as cost:
@@ -69,7 +69,7 @@ def write_record(
     head = {"study": study.name, "part": record.part, "case": case_name(record.case)}
     head["parameters"] = asdict(record.case) if is_dataclass(record.case) else {}
     made = _origin(study, record.part, record.case, needed or {}).attributes()
-    made["digest"] = _digest(json.loads(json_text(result)), arrays)
+    made["digest"] = digest_of(arrays, json.dumps(json.loads(json_text(result))))
     write_json(head | made | provenance() | {"cost": asdict(record.cost), "result": result}, path)
 
 
@@ -102,8 +102,8 @@ def read_record(study: Study, path: str | Path, needed: Records | None = None) -
             f"{path}: cannot be read as a record of {study.name} "
             f"({type(error).__name__}: {error}); {AGAIN}."
         ) from None
-    if _digest(plain, arrays) != digest:
-        raise Refusal(f"{path}: its values are not those that were written; {AGAIN}.")
+    if digest_of(arrays, json.dumps(plain)) != digest:
+        raise Refusal(f"{path}: holds other values than were written; {AGAIN}.")
     found, wanted = Origin.of(content), _origin(study, part.name, case, needed or {})
     if needed is None:
         found = replace(found, sources=())
@@ -175,14 +175,6 @@ def _presented_origin(study: Study, records: Records) -> Origin:
 
 def _digests(records: Records) -> tuple[str, ...]:
     return tuple(record.digest for cases in records.values() for record in cases.values())
-
-
-def _digest(result: Any, arrays: Mapping[str, np.ndarray]) -> str:
-    summary = sha256(json.dumps(result).encode())
-    for name in sorted(arrays):
-        array = np.ascontiguousarray(arrays[name])
-        summary.update(f"\0{name} {array.dtype.str} {array.shape}\0".encode() + array.tobytes())
-    return summary.hexdigest()[:16]
 
 
 def present(study: Study, folder: str | Path) -> None:

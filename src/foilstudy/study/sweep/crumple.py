@@ -29,6 +29,7 @@ def crumple_job(task: CrumpleTask, path: Path) -> None:
     A realisation that diverges, or whose computation fails, becomes a record whose ``status``
     and ``message`` say so.
     """
+    origin = crumple_origin(task)  # before the work, as the code may be edited meanwhile
     foil, recipe = foil_of(task), recipe_of(task)
     attributes = {
         "thickness_um": task.thickness_um,
@@ -46,7 +47,7 @@ def crumple_job(task: CrumpleTask, path: Path) -> None:
         outcome = outcome_of(work)
     values = outcome.values | {"seconds_crumple": cost.seconds}
     attributes |= {"status": outcome.status, "message": outcome.message}
-    write_record(path, quantities(values), attributes, crumple_origin(task))
+    write_record(path, quantities(values), attributes, origin)
     print(f"{outcome.status}: {outcome.message} ({cost.seconds:.1f} s)")
 
 

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from foilstudy.base.cube import CONVENTION
+from foilstudy.base.cube import CONTENT, CONVENTION
+from foilstudy.base.digest import digest_of
 from foilstudy.base.files import written_whole
 from foilstudy.base.origin import Origin
 from foilstudy.base.outcome import USABLE
@@ -117,6 +118,7 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
         cube[f"{name}_digest"] = (_CELL, values, words)
     origin = cube_origin(study, digests, attributes["digest"])
     cube.attrs |= origin.attributes() | {"digest": origin.digest} | physics_codes()
+    cube.attrs[CONTENT] = digest_of({name: v.values for name, v in cube.variables.items()})
     _write(cube, path)
     return cube
 

@@ -23,6 +23,7 @@ def cylinder_bounds(study: StudyConfig, path: Path) -> None:
 
     Writes `path` with ``cylinder_stiffness`` of shape (thickness, overlength, direction), N/m.
     """
+    origin = cylinder_origin(study)  # before the work, as the code may be edited meanwhile
     first = [cell for cell in study.cells() if cell.seed == study.seeds[0]]
     bounds = np.array([_bound(study, cell) for cell in first])
     shape = len(study.thicknesses_um), len(study.reference_heights_mm), 2
@@ -30,7 +31,7 @@ def cylinder_bounds(study: StudyConfig, path: Path) -> None:
         path,
         quantities({"cylinder_stiffness": bounds.reshape(shape)}),
         {},
-        cylinder_origin(study),
+        origin,
     )
 
 

@@ -26,6 +26,8 @@ _CRUMPLING = (
     "pipeline.crumpled",
     "pipeline.method",
     "pipeline.shape",
+    "base.spec",
+    "study.sweep.outcome",
 )
 _MEASURING = (*_CRUMPLING, "measure", "pipeline")
 
@@ -33,14 +35,28 @@ CRUMPLE = Code(("study.sweep.crumple",), _CRUMPLING)
 RESPONSE = Code(("study.sweep.respond",), _MEASURING)
 REFINED = Code(("study.sweep.relax_refined",), _MEASURING)
 CYLINDER = Code(("study.sweep.cylinder",), _MEASURING)
-CUBE = Code(("study.sweep.cube",), ("study.sweep.quantities",))
+CUBE = Code(("study.sweep.cube", "config.model"), ("study.sweep.quantities",))
 EXPORT = Code(("study.sweep.export",), (*_MEASURING, "export"))
 
-PRESENTING = ("base", "plot", "present")
-"""Folders of the package that decide how a cube is shown."""
+PRESENTING = Code(
+    ("present.jobs",),
+    ("base", "config", "measure", "model", "plot", "present", "study.sweep.expected"),
+)
+_TEMPLATES = ("base/data", "present/report/templates")
+"""What decides how a cube is shown, beside sources."""
 
 _FOIL = ("sheet", "material", "thickness_um", "reference_height_mm", "seed")
 """Sections of a task that name the realisation."""
+
+
+def remember_codes() -> None:
+    """Take the fingerprints of all code as it is now, for this process and its children.
+
+    A job that began with the code of before an edit may end after it.
+    """
+    for code in (CRUMPLE, RESPONSE, REFINED, CYLINDER, CUBE, EXPORT):
+        code.fingerprint()
+    presented_origin({})
 
 
 def physics_codes() -> dict[str, str]:
@@ -98,7 +114,9 @@ def cube_origin(study: StudyConfig, digests: Mapping[str, np.ndarray], cylinder:
 
 def presented_origin(cube: Mapping[str, Any]) -> Origin:
     """Of tables, figures and page; `cube` are the attributes of the cube."""
-    return Origin(code=fingerprint_of_files(*PRESENTING), sources=(cube.get("digest", ""),))
+    code = f"{PRESENTING.fingerprint()} {fingerprint_of_files(*_TEMPLATES)}"
+    # the cube of a release before 0.4 has none
+    return Origin(code=code, sources=tuple(filter(None, [cube.get("digest")])))
 
 
 def export_origin(

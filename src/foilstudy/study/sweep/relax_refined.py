@@ -30,6 +30,7 @@ def refine_job(task: RefineTask, crumple_path: Path, path: Path) -> None:
         If the record of the crumple is unreadable or another's: no outcome of this realisation.
     """
     recorded, attributes = read_crumple(crumple_path, task)
+    origin = refined_origin(task, attributes)  # before the work: the code may be edited meanwhile
     outcome = Outcome(attributes["status"], attributes["message"])
     with measured() as cost:
         if outcome.status in USABLE:
@@ -42,7 +43,7 @@ def refine_job(task: RefineTask, crumple_path: Path, path: Path) -> None:
         "message": outcome.message,
         "foil": dumped(foil_of(task)),
     }
-    write_record(path, quantities(values), described, refined_origin(task, attributes))
+    write_record(path, quantities(values), described, origin)
     print(f"{outcome.status}: {outcome.message}")
 
 

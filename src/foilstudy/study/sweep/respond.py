@@ -37,6 +37,7 @@ def respond_job(task: ResponseTask, crumple_path: Path, path: Path) -> None:
         If the record of the crumple is unreadable or another's: no outcome of this realisation.
     """
     recorded, attributes = read_crumple(crumple_path, task)
+    origin = response_origin(task, attributes)  # before the work: the code may be edited meanwhile
     outcome = Outcome(attributes["status"], attributes["message"])
 
     def work() -> Outcome:
@@ -54,7 +55,7 @@ def respond_job(task: ResponseTask, crumple_path: Path, path: Path) -> None:
         "message": outcome.message,
         "foil": dumped(foil_of(task)),
     }
-    write_record(path, quantities(values), described, response_origin(task, attributes))
+    write_record(path, quantities(values), described, origin)
     print(_summary(values) if outcome.values else f"{outcome.status}: {outcome.message}")
 
 

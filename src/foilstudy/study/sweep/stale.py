@@ -9,10 +9,11 @@ from typing import Any
 
 import numpy as np
 
+from foilstudy.base.cube import verified_attributes
 from foilstudy.base.errors import Refusal
-from foilstudy.base.manifest import MANIFEST, listed, outdated
+from foilstudy.base.manifest import listed, outdated
 from foilstudy.base.origin import Origin
-from foilstudy.base.record import read_attributes, read_record
+from foilstudy.base.record import read_record
 from foilstudy.config import StudyConfig
 from foilstudy.study.stale import Stale
 from foilstudy.study.sweep.origins import (
@@ -67,7 +68,7 @@ def stale_results(
         wanted = cube_origin(study, arrays, cylinder["digest"])
     else:
         wanted = cube_origin(study, {}, "")  # no cube was made from what is not there
-    cube = yield from _checked(results / "cube.nc", wanted, read_attributes)
+    cube = yield from _checked(results / "cube.nc", wanted, verified_attributes)
     if cube:
         other = outdated(results, presented_origin(cube), presented)
     else:
@@ -98,11 +99,10 @@ def _checked(
 
 
 def _checked_export(folder: Path, wanted: Origin) -> Iterator[Stale]:
-    if not folder.is_dir():
+    if not os.path.lexists(folder):
         return
-    files = [folder / MANIFEST, *listed(folder)]
-    other = outdated(folder, wanted, files[1:])
-    if other:
-        yield Stale(folder, next(iter(other.values())))
-    elif len(files) == 1 or not all(path.is_file() for path in files):
+    files = listed(folder)
+    if reasons := list(outdated(folder, wanted, files).values()):
+        yield Stale(folder, reasons[0])
+    elif not files or not all(path.is_file() for path in files):
         yield Stale(folder, "is not complete")
