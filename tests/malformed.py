@@ -29,6 +29,13 @@ NOT_TEXT = (
 NOT_CHOICES = ("5", "~", "[]", "'of course'", "true", "{}", "x" * 3000)
 
 
+def _nested_aliases() -> str:
+    """Lists that name each other, shallow one by one and a thousand deep together."""
+    lines = ["a0: &a0 [1]"]
+    lines += [f"a{n}: &a{n} {'[' * 12}*a{n - 1}{']' * 12}" for n in range(1, 80)]
+    return "\n".join(lines) + "\n"
+
+
 def malformed() -> dict[str, bytes]:
     """Contents of files by what is wrong with them."""
     texts = dict(_syntax()) | dict(_yaml_kinds()) | dict(_structure()) | dict(_values())
@@ -142,6 +149,7 @@ def _yaml_kinds() -> Iterator[tuple[str, str]]:
     for name, text in {
         "an alias of nothing": "sweep: *other\n",
         "an alias of itself": "sweep: &a {b: *a}\n",
+        "aliases nested in one another": _nested_aliases(),
         "a list within itself": "sweep: &a [*a]\n",
         "an anchor twice": "sweep: &a 5\nmesh: &a 6\n",
         "a merge of a number": "sweep: {<<: 5}\n",

@@ -267,7 +267,10 @@ def test_report_draws_an_existing_cube_again(tmp_path, capsys):
     written = [Path(line.removeprefix("wrote ")) for line in text.splitlines() if "wrote" in line]
     assert {"powerlaw.csv", "report.html"} <= {path.name for path in written}
     assert all(path.stat().st_size for path in written)
-    assert "left out, as the records of the realisations are not there: " in text
+    assert (
+        "left out, as the records of the realisations are not there, or not those of this cube: "
+        in text
+    )
 
 
 def test_report_without_a_cube_is_one_sentence(tmp_path):

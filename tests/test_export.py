@@ -544,7 +544,7 @@ def test_command_line_writes_one_format_to_a_file(realisation, tmp_path):
 
 def test_command_line_writes_every_format_and_the_shape_comes_back(realisation, capsys):
     main(["export", str(realisation.folder), "--format=all"])
-    paths = [realisation.folder / "export" / kind.filename for kind in FORMATS.choices.values()]
+    paths = [realisation.folder / "exported" / kind.filename for kind in FORMATS.choices.values()]
     assert capsys.readouterr().out.splitlines() == [f"wrote {path}" for path in paths]
     record = contents_of(realisation.task, realisation.folder / "crumple.nc").crumple
     shape = dict(zip(FORMATS, paths))["npz"]
@@ -559,7 +559,7 @@ def test_command_line_writes_what_it_can_and_says_what_it_could_not(realisation,
     realisation.respond(damping="structural")
     main(["export", str(realisation.folder), "--format=all"])
     out, err = capsys.readouterr()
-    folder = realisation.folder / "export"
+    folder = realisation.folder / "exported"
     refused = ["reduced.mat", "reduced.nc"]
     names = {kind.filename for kind in FORMATS.choices.values()} - set(refused)
     assert {path.name for path in folder.iterdir()} == names
@@ -579,7 +579,7 @@ def test_shapes_are_written_where_no_model_is_valid(realisation, capsys, monkeyp
     )
     main(["export", str(realisation.folder), "--format=all"])
     out, err = capsys.readouterr()
-    assert out == f"wrote {realisation.folder / 'export' / 'shape.npz'}\n"
+    assert out == f"wrote {realisation.folder / 'exported' / 'shape.npz'}\n"
     assert len(err.splitlines()) == len(FORMATS) - 1 and len(tries) == 1
     assert all("not written: the guyan model is wrong by" in line for line in err.splitlines())
 

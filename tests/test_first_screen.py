@@ -352,6 +352,7 @@ def test_configuration_that_is_no_longer_valid_has_no_cure_but_a_banner(tmp_path
     cube.attrs["config"] += "gone: {key: 1}\n"
     assert cures(cube, Need(mesh=True, refinements=None)) == []
     assert "not resolved at 50 and 130 µm" in banner_words(cube)
+    assert "No mesh that a study of this package can carry resolves it" in banner_words(cube)
 
 
 # --- configurations in few words -----------------------------------------------------------------

@@ -213,6 +213,18 @@ def test_an_altered_cube_is_gathered_again_and_not_shown(results):
         redraw(results)
 
 
+@pytest.mark.parametrize("name", ["crumple.nc", "cube.nc"])
+def test_damage_anywhere_in_a_file_is_a_refusal(results, name):
+    """Reading a damaged file ends in several kinds of errors, or in other values."""
+    path = results / name if name == "cube.nc" else results / FIRST / name
+    whole, random = path.read_bytes(), np.random.default_rng(0)
+    noticed = 0
+    for place in random.integers(0, len(whole) - 8, 60):
+        path.write_bytes(whole[:place] + b"\xff" * 8 + whole[place + 8 :])
+        noticed += any(key.endswith(name) for key in stale(results))
+    assert noticed > 5  # there are places in a file where nothing stands
+
+
 @pytest.mark.parametrize("spoil", SPOILT[:4])
 def test_a_spoilt_cube_is_gathered_again(results, spoil):
     spoil(results / "cube.nc")

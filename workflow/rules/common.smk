@@ -9,12 +9,12 @@ from pathlib import Path
 
 from foilstudy.base.manifest import MANIFEST
 from foilstudy.config import ConfigError, load_merged
-from foilstudy.config.slips import likely_slips
+from foilstudy.config.slips import likely_slips, unresolved
 from foilstudy.present.figures import FIGURES
 from foilstudy.present.files import StudyFiles
 from foilstudy.present.shown import shown
 from foilstudy.study.registry import refuse_reserved_name
-from foilstudy.study.sweep.expected import costly, expected
+from foilstudy.study.sweep.expected import MEMORY_SPREAD, costly, expected
 from snakemake.logging import logger
 
 
@@ -43,6 +43,11 @@ RESULTS = f"results/{STUDY.study.name}"
 LOGS = f"{RESULTS}/logs"
 BENCHMARKS = f"{RESULTS}/benchmarks"
 CELLS = STUDY.cells()
+COST = expected(STUDY)
+MEMORY_MB = {
+    (each.thickness_um, each.reference_height_mm): each.peak_memory_mb
+    for each in COST.configurations
+}
 PRESENTED = shown(StudyFiles(Path(RESULTS, "cube.nc")))
 RESULTS_LOCKS = []
 # The interpreter that runs Snakemake, whether or not its environment is activated. A rule writes
@@ -84,6 +89,12 @@ def crumple_task(wildcards):
 def response_task(wildcards):
     """JSON of all that decides how the crumpled realisation responds."""
     return STUDY.response_task(STUDY.cell(*wildcards)).model_dump_json()
+
+
+def memory(wildcards):
+    """MB for the largest job of a realisation, as expected; for schedulers that ask."""
+    cell = STUDY.cell(*wildcards)
+    return max(1000, round(MEMORY_SPREAD * MEMORY_MB[cell.thickness_um, cell.reference_height_mm]))
 
 
 def refine_task(wildcards):
@@ -159,8 +170,10 @@ check_results()
 
 def warn_of_slips():
     """Name what is possible but most likely not meant, as `foilstudy check` does."""
-    for slip in [*likely_slips(STUDY), *costly(expected(STUDY))]:
+    for slip in [*likely_slips(STUDY), *costly(COST)]:
         logger.warning(f"Most likely a slip: {slip}")
+    for sentence in unresolved(STUDY):
+        logger.warning(sentence)
 
 
 onstart:

@@ -19,7 +19,7 @@ rule export:
     benchmark:
         f"{BENCHMARKS}/export/{CELL_FLAT}.tsv"
     resources:
-        mem_mb=1000,
+        mem_mb=memory,
     message:
         "export {wildcards.thickness} {wildcards.overlength} seed {wildcards.seed}"
     shell:

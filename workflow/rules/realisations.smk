@@ -13,7 +13,7 @@ rule crumple:
     benchmark:
         f"{BENCHMARKS}/crumple/{CELL_FLAT}.tsv"
     resources:
-        mem_mb=1000,
+        mem_mb=memory,
     message:
         "crumple {wildcards.thickness} {wildcards.overlength} seed {wildcards.seed}"
     shell:
@@ -34,7 +34,7 @@ rule response:
     benchmark:
         f"{BENCHMARKS}/response/{CELL_FLAT}.tsv"
     resources:
-        mem_mb=1000,
+        mem_mb=memory,
     message:
         "response {wildcards.thickness} {wildcards.overlength} seed {wildcards.seed}"
     shell:
@@ -54,7 +54,7 @@ rule refine:
     benchmark:
         f"{BENCHMARKS}/refine/{CELL_FLAT}.tsv"
     resources:
-        mem_mb=4000,
+        mem_mb=memory,
     message:
         "refine {wildcards.thickness} {wildcards.overlength} seed {wildcards.seed}"
     shell:

@@ -27,12 +27,15 @@ def verified_attributes(path: Path) -> dict[str, Any]:
     # a tenth of a second; only those who doubt a cube wait for it
     import netCDF4
 
-    from foilstudy.base.record import AGAIN, read_attributes
+    from foilstudy.base.record import AGAIN, UNREADABLE, read_attributes, unreadable
 
     attributes = read_attributes(path)
-    with netCDF4.Dataset(path) as file:
-        file.set_auto_maskandscale(False)
-        values = {name: variable[...] for name, variable in file.variables.items()}
+    try:
+        with netCDF4.Dataset(path) as file:
+            file.set_auto_maskandscale(False)
+            values = {name: variable[...] for name, variable in file.variables.items()}
+    except UNREADABLE as error:
+        raise unreadable(path, error) from None
     if digest_of(values) != attributes.get(CONTENT):
         raise Refusal(f"{path}: holds other values than were written; {AGAIN}.")
     return attributes

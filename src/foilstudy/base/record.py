@@ -24,6 +24,9 @@ record would be kept as the outcome."""
 AGAIN = "run the study again, which makes it anew"
 """Remedy of a record that cannot be used."""
 
+UNREADABLE = (OSError, RuntimeError, AttributeError, UnicodeDecodeError, ValueError)
+"""What reading a damaged NetCDF file has ended in."""
+
 _COSTS = ("seconds_", "peak_memory")
 """Beginnings of the names of quantities that differ from run to run."""
 _ADDED = ("task", "code", "made_from", "digest", "git_commit", "package_versions")
@@ -88,8 +91,8 @@ def read_attributes(path: Path) -> dict[str, Any]:
     try:
         with netCDF4.Dataset(path) as file:
             attributes = {name: file.getncattr(name) for name in file.ncattrs()}
-    except OSError as error:
-        raise _unreadable(path, error) from None
+    except UNREADABLE as error:
+        raise unreadable(path, error) from None
     if "digest" not in attributes:
         raise Refusal(
             f"{path}: is not a record of foilstudy, or one of a release before 0.4; {AGAIN}."
@@ -110,14 +113,15 @@ def read_record(path: Path) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
         with netCDF4.Dataset(path) as file:
             file.set_auto_mask(False)
             values = {name: variable[...] for name, variable in file.variables.items()}
-    except (OSError, RuntimeError) as error:
-        raise _unreadable(path, error) from None
+    except UNREADABLE as error:
+        raise unreadable(path, error) from None
     if _digest(values, attributes) != attributes["digest"]:
         raise Refusal(f"{path}: holds other values than were written; {AGAIN}.")
     return values, attributes
 
 
-def _unreadable(path: Path, error: Exception) -> Refusal:
+def unreadable(path: Path, error: Exception) -> Refusal:
+    """The refusal of a file that NetCDF cannot read."""
     reason = getattr(error, "strerror", None) or str(error)
     return Refusal(f"{path}: cannot be read as a record ({reason}); {AGAIN}.")
 

@@ -31,7 +31,7 @@ def check(file: Path, /, *, cores: Cores = 2) -> None:
     file : Path
         YAML file of the study.
     """
-    from foilstudy.config.slips import likely_slips
+    from foilstudy.config.slips import likely_slips, unresolved
     from foilstudy.study.sweep.expected import costly, expected
 
     study = read_study(file)
@@ -39,6 +39,7 @@ def check(file: Path, /, *, cores: Cores = 2) -> None:
     lines = [f"{file}: no problem; results go to results/{study.study.name}.", ""]
     lines += (f"{name:10} {text}" for name, text in _resolved(study))
     lines += ["", *_table(study, cost), "", *_summary(cost, cores)]
+    lines += ["", *found] if (found := unresolved(study)) else []
     if slips := [*likely_slips(study), *costly(cost)]:
         lines += ["", "Possible, but most likely a slip:", *slips]
     print("\n".join(lines))

@@ -29,7 +29,8 @@ def export(
         csv_accelerance_free, csv_accelerance_bottom_held, mat_motion: motion per force;
         or all: what can be written, and why the rest cannot.
     output : Path, optional
-        File, or folder for all formats; else FOLDER/export with the usual names.
+        File, or folder for all formats; else FOLDER/exported with the usual names. (FOLDER/export
+        is the workflow's own.)
     refinements : int
         Halve the elements so often before.
     """
@@ -43,7 +44,7 @@ def export(
     formats = {name: FORMATS.choice(name) for name in names}
     if format == "all" and output is not None and output.is_file():
         raise Refusal(f"{output}: is a file, and all formats need a folder; name one.")
-    place = output or folder / "export"
+    place = output or folder / "exported"
     is_file = output is not None and format != "all" and not output.is_dir()
     reasons = []
     try:

@@ -128,6 +128,11 @@ class _Values:
             )
         if node in self._around:
             _refuse(node, "an alias (*) stands within what it names; write the values out.")
+        if len(self._around) > NESTING_MAX:
+            _refuse(
+                node,
+                f"aliases (*) nest this more than {NESTING_MAX} deep; write the values out.",
+            )
         self._around.append(node)
         value = self._made(node)
         self._around.pop()

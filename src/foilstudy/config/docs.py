@@ -18,9 +18,10 @@ _HEAD = """\
 <!-- Generated from the model by `python -m foilstudy.config`; edits are overwritten. -->
 
 One YAML file describes a study. Units stand in the key names. Only `sweep` is required; every
-other key has a default, and the defaults are the published case. An unknown key, a number outside
-its range or an impossible combination stops the study before any job starts, with one sentence
-that names the key and the remedy. `schema.json` lets an editor complete and check the files.
+other key has a default; the defaults are the published case, on a mesh that resolves it. An
+unknown key, a number outside its range or an impossible combination stops the study before any job
+starts, with one sentence that names the key and the remedy. `schema.json` lets an editor complete
+and check the files.
 
 | file | study |
 |---|---|

@@ -1,8 +1,8 @@
 """The sections of a study configuration, with units in the key names and defaults in one place.
 
-The defaults are the published case (M. Bader, Structural Dynamics of Crumpled Thin Sheets,
-TU Delft, 2026). Validators raise complete sentences that name the key path, because the reader
-of the message looks at a YAML file, not at this code.
+The defaults are the published case (M. Bader, Structural Dynamics of Crumpled Thin Sheets, TU
+Delft, 2026), on a mesh that resolves it. Validators raise complete sentences that name the key
+path, because the reader of the message looks at a YAML file, not at this code.
 """
 
 from __future__ import annotations

@@ -9,9 +9,12 @@ import math
 from collections.abc import Iterator, Sequence
 from itertools import chain
 
+from foilstudy.base.numerals import number
+from foilstudy.model.mesh_size import SLENDERNESS_MAX
+
 from .model import StudyConfig
 
-__all__ = ["likely_slips"]
+__all__ = ["likely_slips", "unresolved"]
 
 THICKNESS_MIN_UM = 1.0
 """Thinner foils are not on sale."""
@@ -46,6 +49,25 @@ def likely_slips(study: StudyConfig) -> list[str]:
     )
 
 
+def unresolved(study: StudyConfig) -> list[str]:
+    """A sentence about foils whose folds the mesh cannot follow; none where it resolves all."""
+    radius = study.sheet.diameter_mm / 2
+    wide = {
+        thickness: size / math.sqrt(radius * thickness * 1e-3)
+        for thickness in study.thicknesses_um
+        for size in (study.mesh_of(thickness).element_size_mm,)
+        if size > SLENDERNESS_MAX * (1 + 1e-6) * math.sqrt(radius * thickness * 1e-3)
+    }
+    if not wide:
+        return []
+    widths = _those([float(f"{width:.2g}") for width in wide.values()])
+    return [
+        f"mesh.element_size_mm does not resolve {_those(list(wide))} um: its elements are {widths} "
+        f"times sqrt(R t) wide, and folds need {SLENDERNESS_MAX:g} at most, so the report will not "
+        "trust those stiffnesses; use auto, or a finer size."
+    ]
+
+
 def _outside(value: float, bounds: tuple[float, float]) -> bool:
     return not bounds[0] <= value <= bounds[1]
 
@@ -69,7 +91,7 @@ def _of_sizes(study: StudyConfig) -> Iterator[str]:
     if _outside(gap / diameter, ASPECT_RANGE):
         yield (
             f"sheet.gap_height_mm is {gap:g} mm beside sheet.diameter_mm of {diameter:g} mm, "
-            f"{gap / diameter:.2g} of it; check that both are in mm."
+            f"{number(gap / diameter, 2)} of it; check that both are in mm."
         )
 
 
@@ -128,8 +150,8 @@ def _of_numerics(study: StudyConfig) -> Iterator[str]:
     amplitude, thinnest = study.imperfection.amplitude_um, study.thicknesses_um[0]
     if amplitude > AMPLITUDE_MAX * thinnest:
         yield (
-            f"imperfection.amplitude_um is {amplitude:g} um, {amplitude / thinnest:.2g} times the "
-            f"thickness of {thinnest:g} um, a crumple by itself; check that it is in um."
+            f"imperfection.amplitude_um is {amplitude:g} um, {number(amplitude / thinnest, 2)} "
+            f"times the thickness of {thinnest:g} um, a crumple by itself; check that it is in um."
         )
     relaxation = study.relaxation
     tolerance = relaxation.residual_tolerance

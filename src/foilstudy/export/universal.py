@@ -124,7 +124,7 @@ def _header(contents: Contents) -> dict:
     date, time = (_created(contents) + " NONE").split(" ")[:2]
     return {
         "type": 151,
-        "model_name": str(contents.crumple.foil)[:_ID_LENGTH],
+        "model_name": " ".join(str(contents.crumple.foil).split())[:_ID_LENGTH],  # one line
         "description": f"crumpled, seed {origin.get('seed', 'unknown')}"[:_ID_LENGTH],
         "db_app": f"commit {origin.get('git_commit', 'unknown')}"[:_ID_LENGTH],
         "program": "foilstudy",

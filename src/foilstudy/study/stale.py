@@ -8,6 +8,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Self
+
+from foilstudy.base.errors import Refusal
+from foilstudy.base.record import AGAIN
 
 __all__ = ["Stale", "sentences"]
 
@@ -28,6 +32,11 @@ class Stale:
 
     path: Path
     reason: str
+
+    @classmethod
+    def refused(cls, path: Path, problem: Refusal) -> Self:
+        """One that cannot be read, or is not what is wanted."""
+        return cls(path, str(problem).removeprefix(f"{path}: ").partition(f"; {AGAIN}")[0])
 
 
 def sentences(folder: str, found: Iterable[Stale]) -> list[str]:

@@ -47,13 +47,14 @@ def work(again: bool) -> None:
     RuntimeError
         If a kernel does not work on this machine.
     """
+    # as it is before anything of it is loaded; it may change before a job asks
+    git_commit()
+    remember_codes()
     with redirect_stdout(sys.stderr):
         compiled = compile_kernels()
     if compiled and not again:
         # A kernel just compiled may differ in its last bits from the same one out of the cache.
         os.execv(sys.executable, [sys.executable, *sys.orig_argv[1:], "again"])
-    git_commit()  # that of the code loaded here; it may change before a job asks
-    remember_codes()
     with tempfile.TemporaryDirectory(prefix="foilstudy-") as folder:
         listener = _listening(f"{folder}/worker")
         print(listener.getsockname() if listener else "", flush=True)

@@ -57,7 +57,7 @@ FIGURES: dict[str, FigureSpec] = {
     "morphology": FigureSpec(
         "Crumpled shapes",
         "First realisation of every configuration, all to one scale, seen from slightly above. "
-        "Colour: radial displacement from the cylinder, up to a quarter of the radius.",
+        "Colour: radial displacement from the cylinder, up to 24 % of the radius.",
         "morphology",
         ("crumple_paths",),
         png_dpi=100,  # shaded pictures are large

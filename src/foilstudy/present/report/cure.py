@@ -11,15 +11,14 @@ from foilstudy.base.numerals import duration, nominal
 from foilstudy.config import ConfigError, Sheet, StudyConfig, load_config
 from foilstudy.config.mesh import ENERGY_ERROR_DEFAULT_PERCENT
 from foilstudy.model.mesh_size import (
-    ERROR_COEFFICIENT,
-    ERROR_ORDER,
     SLENDERNESS_MAX,
     element_size_for,
+    energy_error_at,
 )
 from foilstudy.present.configuration import configuration
 from foilstudy.study.sweep.expected import MEASURED, expected
 
-COARSEST_ERROR = ERROR_COEFFICIENT * SLENDERNESS_MAX**ERROR_ORDER
+COARSEST_ERROR = energy_error_at(SLENDERNESS_MAX)
 """Energy error of the coarsest mesh that resolves a crumple."""
 COARSER_ERROR_PERCENT = 25.0
 """Energy error of a mesh between that one and the one that `auto` makes by itself."""

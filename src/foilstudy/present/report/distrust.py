@@ -55,11 +55,17 @@ def banner(cube, trust: Trust) -> Banner | None:
         *_inaccurate(trust),
         *_unstated(trust, refinements),
     ]
+    found = _cures(cube, trust)
+    if trust.unresolved.any() and not found:
+        reasons.append(
+            "No mesh that a study of this package can carry resolves it as it is configured: take "
+            "thicker foil, a smaller cylinder or fewer refinements."
+        )
     verdict = "Do not trust any stiffness of this study yet."
     if count < known:
         configurations = plural(known, "configuration")
         verdict = f"Do not trust the stiffness of {count} of {configurations}."
-    return Banner(verdict, count < known, tuple(reasons), _consequence(trust), _cures(cube, trust))
+    return Banner(verdict, count < known, tuple(reasons), _consequence(trust), found)
 
 
 def _unresolved(trust: Trust):

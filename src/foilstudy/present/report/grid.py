@@ -107,7 +107,8 @@ def sureness(summary: pd.DataFrame) -> list[str]:
         parts = []
         for direction, cells in rows.groupby("direction", sort=False):
             scatter = Spread.of(cells["mesh_limit_std"] / cells["mesh_limit_mean"])
-            text = f"{direction} mesh error at most {percent(cells['mesh_error_share_max'].max())}"
+            error = percent(cells["mesh_error_share_max"].max())
+            text = f"{direction} mesh error of the given shapes at most {error}"
             if scatter:
                 text += f", scatter {percent(scatter.median)} in the median"
             parts.append(text)

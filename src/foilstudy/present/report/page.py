@@ -155,7 +155,7 @@ def _content(files: StudyFiles, folder: Path) -> dict:
         "scope": _scope(cube, config),
         "grids": grid.stiffness_grids(summary),
         "grid_caption": grid.grid_caption(summary),
-        "sure_words": grid.sureness(summary),
+        "sure_words": [*grid.sureness(summary), *_other_physics(cube)],
         "banner": distrust.banner(cube, trust),
         "laws": read_laws,
         "law_scope": laws.scope_of,
@@ -293,17 +293,17 @@ def _provenance(cube: xr.Dataset) -> list[tuple[str, str]]:
         for name, value in cube.attrs.items()
         if name not in ("config", "task")  # the one stands below, the other says the same
     ]
-    return [*rows, ("physics since", _physics_since(cube))]
+    return rows
 
 
-def _physics_since(cube: xr.Dataset) -> str:
-    """Whether the code that would crumple and measure today is that of the cube."""
+def _other_physics(cube: xr.Dataset) -> list[str]:
+    """A sentence where the code of today would not crumple or measure as that of the cube."""
     if all(cube.attrs.get(name) == code for name, code in physics_codes().items()):
-        return "the code that drew this page crumples and measures as that of the cube"
-    return (
-        "the code that crumples or measures is another than that of the cube: running the study "
-        "again makes its realisations anew"
-    )
+        return []
+    return [
+        "The code that crumples or measures has changed since this cube was made; running the "
+        "study again makes its realisations anew."
+    ]
 
 
 def _files(files: StudyFiles, folder: Path) -> list[tuple[str, str, str]]:

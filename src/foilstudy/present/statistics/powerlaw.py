@@ -78,8 +78,9 @@ def simulated_law(cube, direction: str, source: str = PLAIN) -> FittedLaw:
         ``axial`` or ``radial``.
     source
         A key of `SIMULATED`: ``simulation`` is the stress-free stiffness on the crumpled mesh,
-        ``mesh limit`` that of the same shapes at element size zero, ``pre-stressed`` has the
-        stress left in, and ``refined`` was relaxed again on refined meshes. Or `TRUSTED`.
+        ``simulation mesh limit`` that of the same shapes at element size zero, ``simulation
+        pre-stressed`` has the stress left in, and ``simulation pre-stressed refined`` was relaxed
+        again on refined meshes. Or `TRUSTED`.
     """
     return fit_power_law(law_samples(cube, direction, source))
 

@@ -11,7 +11,6 @@ import os
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict, is_dataclass, replace
 from pathlib import Path
-from zipfile import BadZipFile
 
 import numpy as np
 
@@ -97,7 +96,9 @@ def read_record(study: Study, path: str | Path, needed: Records | None = None) -
         if part.arrays:
             with np.load(path.with_suffix(".npz")) as file:
                 arrays = {key: file[key] for key in part.arrays}
-    except (OSError, ValueError, KeyError, TypeError, AttributeError, BadZipFile) as error:
+    except MemoryError:
+        raise
+    except Exception as error:  # a damaged archive ends in almost anything
         raise Refusal(
             f"{path}: cannot be read as a record of {study.name} "
             f"({type(error).__name__}: {error}); {AGAIN}."
@@ -143,8 +144,7 @@ def stale_results(study: Study, folder: str | Path) -> Iterator[Stale]:
                 continue  # made again with what it needs
             except Refusal as problem:
                 if os.path.lexists(path):
-                    reason = str(problem).removeprefix(f"{path}: ").partition(f"; {AGAIN}")[0]
-                    yield Stale(path, reason)
+                    yield Stale.refused(path, problem)
     shown = [folder / name for name in study.outputs()]
     if all(len(found[part.name]) == len(part.cases) for part in study.parts):
         other = outdated(folder, _presented_origin(study, found), shown)

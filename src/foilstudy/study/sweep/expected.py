@@ -25,6 +25,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from foilstudy.base.numerals import number
 from foilstudy.config import Cell, StudyConfig
 from foilstudy.config.foils import foil_of, patch_of
 
@@ -191,13 +192,13 @@ def costly(cost: Expected) -> list[str]:
     if cost.processor_seconds > PROCESSOR_SECONDS_MAX:
         days = cost.processor_seconds / 86_400
         sentences.append(
-            f"The study takes about {days:.2g} days of processor time; check "
+            f"The study takes about {number(days, 2)} days of processor time; check "
             "mesh.element_size_mm and the length of the sweep."
         )
     if cost.peak_memory_mb > MEMORY_MAX_MB:
         sentences.append(
-            f"A job takes about {cost.peak_memory_mb / 1000:.2g} GB; check mesh.element_size_mm "
-            "and the refinements."
+            f"A job takes about {number(cost.peak_memory_mb / 1000, 2)} GB; check "
+            "mesh.element_size_mm and the refinements."
         )
     return sentences
 

@@ -7,13 +7,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from pydantic import ValidationError
 
 from foilstudy.base.errors import Refusal
 from foilstudy.base.files import written_whole
 from foilstudy.base.manifest import write_manifest
 from foilstudy.base.origin import Origin
 from foilstudy.base.provenance import provenance
-from foilstudy.base.record import MACHINE_FAULTS, read_attributes
+from foilstudy.base.record import AGAIN, MACHINE_FAULTS, read_attributes
 from foilstudy.config import ResponseTask
 from foilstudy.config.scene import dynamics_of
 from foilstudy.export.contents import Contents
@@ -41,7 +42,10 @@ def recorded_task(folder: Path) -> ResponseTask:
     """
     path = folder / "response.nc"
     attributes = read_attributes(path)
-    task = ResponseTask.model_validate_json(attributes["task"])
+    try:
+        task = ResponseTask.model_validate_json(attributes["task"])
+    except ValidationError:
+        raise Refusal(f"{path}: is the record of another kind of task; {AGAIN}.") from None
     _, crumple = read_crumple(folder / "crumple.nc", task)
     refuse_departure(path, Origin.of(attributes), response_origin(task, crumple))
     return task

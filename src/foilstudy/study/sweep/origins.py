@@ -34,7 +34,8 @@ _MEASURING = (*_CRUMPLING, "measure", "pipeline")
 CRUMPLE = Code(("study.sweep.crumple",), _CRUMPLING)
 RESPONSE = Code(("study.sweep.respond",), _MEASURING)
 REFINED = Code(("study.sweep.relax_refined",), _MEASURING)
-CYLINDER = Code(("study.sweep.cylinder",), _MEASURING)
+# its task says `auto`, and not the size that comes of it
+CYLINDER = Code(("study.sweep.cylinder", "config.mesh"), _MEASURING)
 CUBE = Code(("study.sweep.cube", "config.model"), ("study.sweep.quantities",))
 EXPORT = Code(("study.sweep.export",), (*_MEASURING, "export"))
 

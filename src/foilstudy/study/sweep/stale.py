@@ -90,7 +90,7 @@ def _checked(
     try:
         attributes = read(path)
     except Refusal as problem:
-        yield Stale(path, str(problem).removeprefix(f"{path}: ").partition(";")[0])
+        yield Stale.refused(path, problem)
         return {}
     if departure := Origin.of(attributes).departure(wanted):
         yield Stale(path, f"was made {departure}")
