@@ -1,6 +1,6 @@
 """Write the numbers of the published study into the pages: docs/page_numbers.py [--check].
 
-    .venv/bin/python docs/page_numbers.py           README.md, docs/comparison.md of results/thesis
+    .venv/bin/python docs/page_numbers.py           the pages, of results/thesis
     .venv/bin/python docs/page_numbers.py --check   only say whether they are as they should be
 
 What stands between ``<!-- numbers: NAME -->`` and ``<!-- end -->`` is what the function NAME below
@@ -21,13 +21,14 @@ import pandas as pd
 from foilstudy import open_cube
 from foilstudy.base.reference import published
 from foilstudy.present.comparison import studied_case
+from foilstudy.present.configuration import configuration
 from foilstudy.present.report.laws import Exponent, read_laws
 from foilstudy.present.statistics.cells import good, relative_mesh_error
 from foilstudy.present.statistics.powerlaw import LIMIT, PLAIN, TRUSTED
 from foilstudy.present.statistics.trust import assess_trust
 
 ROOT = Path(__file__).parents[1]
-PAGES = ("README.md", "docs/comparison.md")
+PAGES = ("README.md", "docs/comparison.md", "docs/method.md")
 BLOCK = re.compile(r"(<!-- numbers: (\w+) -->\n)(.*?)(<!-- end -->)", re.DOTALL)
 DIRECTIONS = ("axial", "radial")
 PRESTRESSED = "simulation pre-stressed"
@@ -329,6 +330,26 @@ def shapes(study: Study) -> Iterator[str]:
     )
 
 
+def steps(study: Study) -> Iterator[str]:
+    """Steps to the equilibrium, and what else it took."""
+    cube, ramp = study.cube, int(configuration(study.cube)["relaxation"]["ramp_steps"])
+    after, newton = cube["steps"] - ramp, cube["newton_steps"]
+    body = []
+    for thickness in study.thicknesses:
+        here = after.sel(thickness=thickness)
+        polish = newton.sel(thickness=thickness)
+        body.append(
+            [
+                f"{thickness} µm",
+                f"{float(here.median()):.0f}, {float(here.max()):.0f}",
+                f"{float(polish.median()):g}, {float(polish.max()):g}",
+                f"{float(cube['equilibrium_residual'].sel(thickness=thickness).max()):.1e}",
+            ]
+        )
+    heads = ["", "steps after the ramp: median, most", "quasi-Newton steps", "residual: most"]
+    yield from rows(heads, body)
+
+
 def costs(study: Study) -> Iterator[str]:
     """What a realisation took."""
     cube, parts = study.cube, {"crumple": "crumple", "static": "static", "dynamic": "dynamic"}
@@ -349,7 +370,7 @@ BLOCKS = {
     each.__name__: each
     for each in (
         law, dimensionless, trust, means, simulation, experiment, prestress, bound, variability,
-        dynamics, eigenfrequency, shapes, costs,
+        dynamics, eigenfrequency, shapes, steps, costs,
     )
 }  # fmt: skip
 
