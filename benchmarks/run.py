@@ -32,6 +32,7 @@ from foilstudy.config import load_config  # noqa: E402
 from foilstudy.model.foil import Foil  # noqa: E402
 from foilstudy.model.materials import material  # noqa: E402
 from foilstudy.pipeline.crumple import uncrumpled  # noqa: E402
+from foilstudy.pipeline.method import Mesh  # noqa: E402
 from foilstudy.solve.problem import Problem  # noqa: E402
 from foilstudy.solve.relaxation import Ramp, Scheme, StoppingRule, relax  # noqa: E402
 from foilstudy.solve.relaxation.mass.spectral import SpectralMassScaling  # noqa: E402
@@ -75,7 +76,7 @@ def median_seconds(call: Callable[[], object], inner: int = 1) -> float:
 
 def kernel_rows() -> list[tuple[str, str]]:
     """Force evaluation and mass solve per element."""
-    start = uncrumpled(FOIL)
+    start = uncrumpled(FOIL, Mesh(5e-3))
     shell, patch = start.stressed, start.patch
     points = start.reference + 1e-3 * np.random.default_rng(0).standard_normal(patch.shape)
     force = np.empty_like(points)
@@ -92,7 +93,7 @@ def kernel_rows() -> list[tuple[str, str]]:
 
 def crumple_rows(folder: Path) -> list[tuple[str, str]]:
     """One crumple of exactly 4000 steps, then whole realisations."""
-    problem, scheme = Problem(uncrumpled(FOIL).stressed), Scheme()
+    problem, scheme = Problem(uncrumpled(FOIL, Mesh(5e-3)).stressed), Scheme()
     ramp, rule = Ramp(FOIL.shortening, 2000), StoppingRule(0.0, 2000)
     seconds = median_seconds(lambda: relax(problem, scheme.start(problem), ramp, rule))
     rows = [("crumple, 0.17 m, 5 mm, 4000 steps", f"{seconds:.2f} s")]

@@ -194,11 +194,11 @@ def test_missing_or_unreadable_file_is_one_sentence(tmp_path, command):
 
 
 def test_expected_time_of_the_default_study_is_that_of_a_run():
-    """Its 54 jobs took 269 s on two processors, all of it 142 and 154 s; largest job 800 MB."""
+    """Its 36 jobs took 247 s on two processors, all of it 148 s; largest job 1551 MB."""
     cost = expected(load_config(ROOT / "config/config.yaml"))
-    assert 269 / 2 < cost.realisation_seconds < 269 * 2
+    assert 247 / 2 < cost.realisation_seconds < 247 * 2
     assert 148 / 2 < cost.wall_seconds(2) < 148 * 2
-    assert cost.peak_memory_mb == pytest.approx(800, rel=0.4)
+    assert cost.peak_memory_mb == pytest.approx(1551, rel=0.4)
 
 
 def test_expected_time_of_the_published_study_is_within_the_stated_factor():
