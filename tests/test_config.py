@@ -445,7 +445,7 @@ def test_element_size_given_in_metres():
 def test_the_limit_of_elements_counts_either_refinement(which):
     stiffness = {"refinements": 0, "relaxed_refinements": 0} | {which: 2}
     content = study(mesh={"element_size_mm": 1.25})
-    assert "refined 2 times" in problem_of(content | {"stiffness": stiffness})
+    assert "refined twice" in problem_of(content | {"stiffness": stiffness})
     load_config(content | {"stiffness": dict.fromkeys(stiffness, 0)})
 
 

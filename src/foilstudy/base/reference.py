@@ -10,6 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from foilstudy.base.numerals import nominal
+
 
 class Estimate(NamedTuple):
     """A published value and its standard deviation."""
@@ -158,8 +160,8 @@ class Case:
             (low, high), (lowest, highest) = getattr(self, name), getattr(studied, name)
             slack = 1 + GEOMETRY_TOLERANCE
             if not (low / slack <= lowest and highest <= high * slack):
-                ends = " to ".join(dict.fromkeys((f"{lowest:.3g}", f"{highest:.3g}")))
-                found.append(f"{words} {ends}{unit} outside {low:.3g} to {high:.3g}")
+                ends = " to ".join(dict.fromkeys(map(nominal, (lowest, highest))))
+                found.append(f"{words} {ends}{unit} outside {nominal(low)} to {nominal(high)}")
         return tuple(found)
 
 

@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 from pydantic import Field, PlainSerializer, WithJsonSchema, WrapValidator, model_validator
 
+from foilstudy.base.numerals import times
 from foilstudy.model.foil import SMOOTH_LENGTH_MIN
 from foilstudy.model.mesh_size import element_size_for
 from foilstudy.model.shell.elements import ELEMENTS
@@ -159,7 +160,7 @@ def _size_problems(use: MeshUse, size: float, which: str) -> Iterator[str]:
         )
         yield (
             f"mesh.element_size_mm is {size:g} mm{which}, which makes {elements:.2g} elements on "
-            f"the longest cylinder, refined {use.refinements} times (at most "
+            f"the longest cylinder, refined {times(use.refinements)} (at most "
             f"{ELEMENTS_MAX:g}); {remedy}."
         )
 
