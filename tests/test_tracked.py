@@ -43,7 +43,7 @@ def test_results_keep_cubes_tables_and_pictures_that_a_page_shows(tracked):
     pictures = {path for path in kept if path.suffix == ".png"}
     assert pictures == shown()
     for path in kept - pictures:
-        assert path.suffix in (".csv", ".md") or path.name == "cube.nc", path
+        assert path.suffix in (".csv", ".md") or path.name in ("cube.nc", "manifest.json"), path
 
 
 def test_a_clone_is_small(tracked):
