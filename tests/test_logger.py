@@ -50,9 +50,12 @@ def test_time_left_does_not_count_what_came_before_the_first_job(clock, start, c
 
 
 def test_an_interrupt_is_one_line_and_hides_its_consequences(start, capsys):
+    # a shell's background job, which this test may be, ignores interrupts
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     handler = start()
     with pytest.raises(KeyboardInterrupt):
         os.kill(os.getpid(), signal.SIGINT)
+    signal.signal(signal.SIGINT, before)
     handler.emit(error("At least one job did not complete successfully."))
     handler.emit(SimpleNamespace(event=LogEvent.JOB_ERROR, jobid=1, rule_name="a", log=["b"]))
     plugin.sys.excepthook(KeyboardInterrupt, KeyboardInterrupt(), None)

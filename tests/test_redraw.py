@@ -12,6 +12,8 @@ import pytest
 from synthetic import FAILED, make_cube, ten_percent, write_cube, write_study
 
 from foilstudy import open_cube
+from foilstudy.base.manifest import listed
+from foilstudy.command import main
 from foilstudy.present.figures import FIGURES
 from foilstudy.present.files import StudyFiles
 from foilstudy.present.redraw import redraw
@@ -52,20 +54,26 @@ def test_cube_with_its_records_gives_everything(folder):
     assert f"{law['gamma'][0]:.2f}" in page
 
 
-def test_cube_alone_keeps_the_pictures_that_it_cannot_draw(folder):
+def test_cube_alone_keeps_the_pictures_that_it_cannot_draw(folder, capsys):
     picture, other = (folder / "figures" / f"{name}.png" for name in ("morphology", "seeds"))
     picture.parent.mkdir()
     for path in (picture, other):
         matplotlib.image.imsave(path, np.eye(9))
     note_origin(StudyFiles(folder / "cube.nc"), [picture])  # the other may be of any cube
     before = picture.read_bytes()
-    redrawn = redraw(folder / "cube.nc")
-    assert redrawn.kept == ["morphology"]
-    assert set(redrawn.left_out) == set(OF_RECORDS) - {"morphology"}
-    assert picture.read_bytes() == before and picture not in redrawn.written
-    assert redraw(folder / "cube.nc").kept == ["morphology"]
+    main(["report", str(folder / "cube.nc")])
+    *written, kept, left_out = capsys.readouterr().out.splitlines()
+    why = "as the records of the realisations are not there, or not those of this cube: "
+    assert kept == f"left as they were, {why}morphology"
+    assert set(left_out.removeprefix(f"left out, {why}").split(", ")) == {
+        *set(OF_RECORDS) - {"morphology"}
+    }
+    paths = [Path(line.removeprefix("wrote ")) for line in written]
+    assert all(path.stat().st_size for path in paths)
+    assert picture.read_bytes() == before and picture not in paths
+    assert picture in listed(folder)  # and so kept the next time
     page = (folder / "report.html").read_text("utf-8")
-    assert figures_in(page) == set(FIGURES) - set(redrawn.left_out)
+    assert figures_in(page) == set(FIGURES) - set(OF_RECORDS) | {"morphology"}
     assert "records of the realisations are not in the folder" in page
     assert 'id="viewer"' not in page
 

@@ -219,10 +219,10 @@ def test_damage_anywhere_in_a_file_is_a_refusal(results, name):
     path = results / name if name == "cube.nc" else results / FIRST / name
     whole, random = path.read_bytes(), np.random.default_rng(0)
     noticed = 0
-    for place in random.integers(0, len(whole) - 8, 60):
+    for place in random.integers(0, len(whole) - 8, 24):
         path.write_bytes(whole[:place] + b"\xff" * 8 + whole[place + 8 :])
         noticed += any(key.endswith(name) for key in stale(results))
-    assert noticed > 5  # there are places in a file where nothing stands
+    assert noticed > 1  # there are places in a file where nothing stands
 
 
 @pytest.mark.parametrize("spoil", SPOILT[:4])

@@ -43,6 +43,11 @@ def command(folder, config, *options):
     ]
 
 
+def heed_interrupts():
+    """Of a shell's background job, which these tests may be, children would ignore them."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def snakemake(folder, config, *options):
     return subprocess.run(
         command(folder, config, *options), capture_output=True, text=True, cwd=ROOT, check=False
@@ -175,6 +180,7 @@ def test_an_interrupted_study_says_how_to_go_on_and_does(tmp_path):
         stderr=subprocess.PIPE,
         text=True,
         start_new_session=True,
+        preexec_fn=heed_interrupts,
     )
     for line in process.stderr:
         if line.startswith("["):
@@ -298,6 +304,7 @@ def test_killed_study_resumes_to_the_same_cube(undisturbed, tmp_path):
         stderr=subprocess.PIPE,
         text=True,
         start_new_session=True,
+        preexec_fn=heed_interrupts,
     )
     finished = 0
     while finished < 5:
