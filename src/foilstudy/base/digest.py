@@ -9,11 +9,17 @@ import numpy as np
 
 __all__ = ["digest_of"]
 
+_COSTS = ("seconds_", "peak_memory")
+"""Beginnings of the names of quantities."""
+
 
 def digest_of(arrays: Mapping[str, np.ndarray], text: str = "") -> str:
-    """Sixteen hexadecimal digits of arrays by name, of numbers or texts, and of a text."""
+    """Sixteen hexadecimal digits of arrays by name, of numbers or texts, and of a text.
+
+    What a computation has cost does not count, as it differs from run to run.
+    """
     summary = sha256(text.encode())
-    for name in sorted(arrays):
+    for name in sorted(name for name in arrays if not name.startswith(_COSTS)):
         array = np.ascontiguousarray(arrays[name])
         if array.dtype.kind in "OU":
             kind, content = "text", "\0".join(map(str, array.ravel())).encode()

@@ -27,8 +27,6 @@ AGAIN = "run the study again, which makes it anew"
 UNREADABLE = (OSError, RuntimeError, AttributeError, UnicodeDecodeError, ValueError)
 """What reading a damaged NetCDF file has ended in."""
 
-_COSTS = ("seconds_", "peak_memory")
-"""Beginnings of the names of quantities that differ from run to run."""
 _ADDED = ("task", "code", "made_from", "digest", "git_commit", "package_versions")
 """Attributes that `write_record` adds to those it is given."""
 
@@ -128,6 +126,5 @@ def unreadable(path: Path, error: Exception) -> Refusal:
 
 def _digest(values: Mapping[str, np.ndarray], attributes: Mapping[str, Any]) -> str:
     """Of everything that the task decides, and so not of what it has cost."""
-    decided = {name: values[name] for name in values if not name.startswith(_COSTS)}
     words = {name: str(text) for name, text in attributes.items() if name not in _ADDED}
-    return digest_of(decided, json.dumps(words, sort_keys=True))
+    return digest_of(values, json.dumps(words, sort_keys=True))
