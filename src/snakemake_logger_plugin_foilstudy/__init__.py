@@ -119,6 +119,8 @@ class LogHandler(LogHandlerBase):
         def stop(number, frame):
             if not self._stopping:
                 self._write(_STOPPED)
+                # it would print the tracebacks of what Snakemake was awaiting
+                logging.getLogger("asyncio").setLevel(logging.CRITICAL + 1)
             self._stopping = True
             return interrupt(number, frame)
 
