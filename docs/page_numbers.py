@@ -138,37 +138,27 @@ def means(study: Study) -> Iterator[str]:
 
 
 def simulation(study: Study) -> Iterator[str]:
-    """Our means over the published simulation."""
+    """Our means, on the crumpled mesh and in the mesh limit, over the published simulation."""
     plain = good(study.cube, "static_stiffness").mean("seed")
     limit = good(study.cube, "static_stiffness_converged").mean("seed")
-
-    def cells(direction: str, thickness: int) -> list[str]:
-        fit = published().power_laws[direction]["simulation"].law
-        theirs = fit.stiffness(study.overlengths, thickness)
-        pairs = zip(
-            _row(plain, direction, thickness) / theirs,
-            _row(limit, direction, thickness) / theirs,
-            strict=True,
-        )
-        return [f"{_short(a)}, {_short(b)}" for a, b in pairs]
-
-    yield from _by_overlength(study, cells)
+    yield from _over_published(study, "simulation", (plain, limit))
 
 
 def experiment(study: Study) -> Iterator[str]:
     """Our mesh limit (mean) and pre-stressed values (median) over the published experiment."""
     limit = good(study.cube, "static_stiffness_converged").mean("seed")
     stressed = study.cube["prestressed_stiffness"].median("seed")
+    yield from _over_published(study, "experiment", (limit, stressed))
+
+
+def _over_published(study: Study, source: str, ours: tuple) -> Iterator[str]:
+    """Values of ours, side by side, over a published fit."""
 
     def cells(direction: str, thickness: int) -> list[str]:
-        fit = published().power_laws[direction]["experiment"].law
+        fit = published().power_laws[direction][source].law
         theirs = fit.stiffness(study.overlengths, thickness)
-        pairs = zip(
-            _row(limit, direction, thickness) / theirs,
-            _row(stressed, direction, thickness) / theirs,
-            strict=True,
-        )
-        return [f"{_short(a)}, {_short(b)}" for a, b in pairs]
+        ratios = [_row(values, direction, thickness) / theirs for values in ours]
+        return [", ".join(map(_short, each)) for each in zip(*ratios, strict=True)]
 
     yield from _by_overlength(study, cells)
 
