@@ -115,6 +115,7 @@ def trust(study: Study) -> Iterator[str]:
     trusted = verdict.trusted.all("direction")
     largest = error.max(("overlength", "seed", "direction"))
     slenderness = verdict.slenderness.max("overlength")
+    folds = [_ends(row) for row in verdict.fold_angle.values]
     yield from rows(
         ["", *(f"{t} µm" for t in study.thicknesses)],
         [
@@ -122,6 +123,7 @@ def trust(study: Study) -> Iterator[str]:
                 "element over √(R t) (folds need 1 at most)",
                 *(f"{s:.2f}" for s in slenderness.values),
             ],
+            ["sharpest folds, degrees an element (60 at most)", *folds],
             ["largest stated mesh error of a value", *(f"{100 * e:.2g} %" for e in largest.values)],
             [
                 "overlengths of which the stiffness is trusted",
@@ -129,6 +131,10 @@ def trust(study: Study) -> Iterator[str]:
             ],
         ],
     )
+
+
+def _ends(values: np.ndarray) -> str:
+    return f"{values.min():.0f} to {values.max():.0f}"
 
 
 def means(study: Study) -> Iterator[str]:
