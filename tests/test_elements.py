@@ -25,8 +25,8 @@ from foilstudy.model.shell.shell import Shell
 from foilstudy.model.shell.tangent import mass_matrix
 from foilstudy.model.shell.yielding import von_mises_stress
 
-CHUNK = corner_kernel.CHUNK
-CHUNK_EDGES = (5, CHUNK - 2, CHUNK - 1, CHUNK, CHUNK + 1, CHUNK + 2, 2 * CHUNK, 2 * CHUNK + 1)
+CHUNK = corner_kernel.LANES * corner_kernel.STEPS
+CHUNK_EDGES = (5, 7, 8, 9, 17, CHUNK - 1, CHUNK, CHUNK + 1, CHUNK + 2, CHUNK + 8, 2 * CHUNK + 1)
 
 ELEMENTS = (
     Corner(),

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from foilstudy.model.shell.elements import corner_kernel
+from foilstudy.model.shell.elements.corner_data import pack
 from foilstudy.model.shell.elements.sampled import SampledKernel
 from foilstudy.model.shell.elements.sampling import corner
 from foilstudy.model.shell.section import Section
@@ -46,12 +47,12 @@ class CornerKernel(SampledKernel):
     def __init__(self, section: Section, share: float):
         super().__init__(section, corner(share))
         patch = section.patch
-        self._data = corner_kernel.pack(self._samples, section.stiffness, patch.periodic)
+        self._data = pack(self._samples, section.stiffness, patch.periodic, share)
         self._spacings = (patch.size_around, patch.size_along)
-        self._factors = (section.thickness**2 / 12, share)
+        self._bend = section.thickness**2 / 12
 
     def force(self, points: np.ndarray, out: np.ndarray) -> np.ndarray:
         return corner_kernel.internal_force(
-            points, self._section.patch.elements_around, self._data, self._spacings, self._factors,
+            points, self._section.patch.elements_around, self._data, self._spacings, self._bend,
             out,
         )  # fmt: skip
