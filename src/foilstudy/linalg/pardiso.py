@@ -26,7 +26,7 @@ _LAYER_LP64, _LAYER_INTEL = 0, 0
 
 
 @lru_cache(maxsize=1)
-def _library():
+def library():
     """The MKL runtime of the installed ``mkl`` package, or None."""
     try:
         files = metadata.files("mkl") or []
@@ -50,7 +50,7 @@ def _library():
 
 def available() -> bool:
     """Whether an MKL runtime can be loaded."""
-    return _library() is not None
+    return library() is not None
 
 
 class _Job:
@@ -88,7 +88,7 @@ class _Job:
             ctypes.byref(ctypes.c_int32(number)) for number in numbers
         )
         error = ctypes.c_int32(0)
-        _library().pardiso(
+        library().pardiso(
             handle, maxfct, mnum, mtype, stage, size, values, starts, columns, None, nrhs,
             settings, quiet, rhs.ctypes.data_as(_POINTER), solution.ctypes.data_as(_POINTER),
             ctypes.byref(error),

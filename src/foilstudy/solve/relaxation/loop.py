@@ -100,7 +100,7 @@ _UNSTABLE = 0.5
 
 
 @njit(cache=True, fastmath=True, error_model="numpy")
-def _advance(momentum, force, previous, free_start, free_stop, damping):
+def _advance(momentum, force, free_start, free_stop, damping):
     """momentum <- ((1 - c/2) momentum - f) / (1 + c/2) on the free rows."""
     keep = (1.0 - 0.5 * damping) / (1.0 + 0.5 * damping)
     push = -1.0 / (1.0 + 0.5 * damping)
@@ -108,10 +108,8 @@ def _advance(momentum, force, previous, free_start, free_stop, damping):
         for j in range(free_start, free_stop):
             m = momentum[c, j - free_start]
             f = force[c, j]
-            o = previous[c, j - free_start]
             for i in range(f.size):
                 m[i] = keep * m[i] + push * f[i]
-                o[i] = f[i]
 
 
 @njit(cache=True, fastmath=True, error_model="numpy")
@@ -130,21 +128,22 @@ def _move(points, velocity, share, lowering, free_start, free_stop):
                 x[i] += v[i]
 
 
-@njit(cache=True, fastmath=False, error_model="numpy")
-def _motion_products(velocity, momentum, force, previous, free_start, free_stop):
-    """v . (f - f_old) and v . M v over the free rows."""
-    work = 0.0
-    norm = 0.0
+@njit(cache=True, fastmath=True, error_model="numpy")
+def _product(velocity, other, start):
+    """v . other over the free rows, the first of which is `start` in the other array.
+
+    Nothing is written, so that the order of the sum does not depend on where the arrays lie.
+    """
+    total = 0.0
     for c in range(3):
-        for j in range(free_start, free_stop):
-            v = velocity[c, j - free_start]
-            m = momentum[c, j - free_start]
-            f = force[c, j]
-            o = previous[c, j - free_start]
+        for j in range(velocity.shape[1]):
+            v = velocity[c, j]
+            o = other[c, start + j]
+            part = 0.0
             for i in range(v.size):
-                work += v[i] * (f[i] - o[i])
-                norm += v[i] * m[i]
-    return work, norm
+                part += v[i] * o[i]
+            total += part
+    return total
 
 
 def relax(
@@ -181,14 +180,14 @@ def relax(
     share[:RING_ROWS], share[-RING_ROWS:] = 0.0, 1.0
     force = np.empty_like(points)
     momentum = np.zeros((3, free[1] - free[0], points.shape[2]))
-    previous = np.zeros_like(momentum)
     velocity = np.zeros_like(momentum)
+    work_before = momentum_norm = 0.0
     recorder = _Recorder(ramp, problem)
     status, step = "not_converged", 0
     last_step = ramp.steps + rule.relaxation_steps_max
     while True:
         energies = problem.force(points, force)
-        work_rate, momentum_norm = _motion_products(velocity, momentum, force, previous, *free)
+        work_rate = _product(velocity, force, RING_ROWS) - work_before
         if step % rule.check_interval == 0 or step == last_step:
             entry = recorder.record(step, force, energies, 0.5 * momentum_norm)
             finite = np.isfinite(energies.sum() + entry.kinetic_energy)
@@ -203,8 +202,10 @@ def relax(
                 status = "diverged"
             break
         damper = motion.ramp_damper if step < ramp.steps else motion.relaxation_damper
-        _advance(momentum, force, previous, *free, damper.coefficient(work_rate, momentum_norm))
+        _advance(momentum, force, *free, damper.coefficient(work_rate, momentum_norm))
         velocity = motion.mass.velocity(momentum)
+        work_before = _product(velocity, force, RING_ROWS)
+        momentum_norm = _product(velocity, momentum, 0)
         step += 1
         lowering = ramp.shortening_at(step) - ramp.shortening_at(step - 1)
         _move(points, velocity, share, lowering, *free)

@@ -15,7 +15,10 @@ class Mass(Protocol):
     """A fictitious mass matrix of the free control points, for a pseudo-time step of 1."""
 
     def velocity(self, momentum: np.ndarray) -> np.ndarray:
-        """Solve M v = momentum; arrays of shape (3, free rows, columns)."""
+        """Solve M v = momentum; arrays of shape (3, free rows, columns).
+
+        The result is good until the next call.
+        """
         ...
 
 
