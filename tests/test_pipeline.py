@@ -21,10 +21,11 @@ from foilstudy.measure.choices import REDUCTIONS, STRESS_REMOVALS, STRUCTURAL_DA
 from foilstudy.measure.dynamics import DynamicsOptions
 from foilstudy.model.imperfections import IMPERFECTIONS
 from foilstudy.model.materials import MATERIALS, material
-from foilstudy.model.patch import knot_points
+from foilstudy.model.patch import knot_points, refine
 from foilstudy.model.shell.elements import ELEMENTS
 from foilstudy.model.shell.material import LAWS
 from foilstudy.model.shell.material.elastic import Elastic
+from foilstudy.pipeline.crumple import uncrumpled
 from foilstudy.solve.choices import DAMPINGS, MASSES, PATHS, SEARCHES
 from foilstudy.solve.equilibrium.settle import SettleOptions
 from foilstudy.solve.paths.relaxation import RelaxationPath
@@ -70,6 +71,30 @@ def test_refined_it_has_the_same_surface_and_settles_lower(crumpled):
     settled = fine.settled()
     assert settled.status == "converged"
     assert settled.energies().total < fine.energies().total
+
+
+def test_a_ramp_on_a_coarser_mesh_ends_on_the_one_asked_for():
+    mesh = Mesh(7.5e-3, ramp_coarsenings=1)
+    assert mesh.patch(FOIL) == mesh.of_ramp().patch(FOIL).refined()
+    crumpled = crumple(FOIL, mesh, Imperfection(seed=3), QUICK)
+    assert (crumpled.status, crumpled.arrival.negative_eigenvalues) == ("converged", 0)
+    assert crumpled.arrival.residual <= 1e-8
+    start = uncrumpled(FOIL, mesh, Imperfection(seed=3), QUICK)
+    assert crumpled.patch == start.patch.refined() == mesh.patch(FOIL)
+    assert np.array_equal(crumpled.reference, refine(start.reference))
+    # work and history are those of both meshes
+    pushed = QUICK.path.push(start.problem(), FOIL.shortening)
+    settled = QUICK.path.settle(crumpled.problem(), refine(pushed.points))
+    assert np.array_equal(settled.points, crumpled.points)
+    assert crumpled.arrival.steps == pushed.steps + settled.steps
+    assert np.array_equal(crumpled.arrival.history.residual, pushed.history.residual)
+    assert set(crumpled.arrival.costs) == {"relaxing", "settling"}
+
+
+def test_every_mesh_between_that_of_the_ramp_and_the_last_is_relaxed():
+    crumpled = crumple(FOIL, Mesh(3.75e-3, ramp_coarsenings=2), Imperfection(seed=3), QUICK)
+    assert (crumpled.status, crumpled.arrival.negative_eigenvalues) == ("converged", 0)
+    assert crumpled.patch == Mesh(15e-3).patch(FOIL).refined().refined()
 
 
 def test_it_can_be_looked_at(crumpled):

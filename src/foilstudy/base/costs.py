@@ -29,6 +29,14 @@ class Cost:
     cpu_seconds: float = 0.0
     peak_memory_mb: float = 0.0
 
+    def __add__(self, other: Cost) -> Cost:
+        """Of one block after the other."""
+        return Cost(
+            self.seconds + other.seconds,
+            self.cpu_seconds + other.cpu_seconds,
+            max(self.peak_memory_mb, other.peak_memory_mb),
+        )
+
 
 _open: list[Cost] = []
 """Blocks being measured, outermost first."""

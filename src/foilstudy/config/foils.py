@@ -35,4 +35,6 @@ def foil_of(task: CrumpleTask | RefineTask | ResponseTask) -> Foil:
 def patch_of(task: CrumpleTask) -> Patch:
     """The patch on which a task is crumpled."""
     foil, size = foil_of(task), task.mesh.element_size_mm * 1e-3
-    return Patch.for_cylinder(foil.diameter, foil.reference_height, size)
+    return Patch.for_cylinder(
+        foil.diameter, foil.reference_height, size, task.mesh.ramp_coarsenings
+    )

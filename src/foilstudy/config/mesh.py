@@ -58,6 +58,14 @@ class Mesh(Section):
         ge=0.1,
         le=100,
     )
+    ramp_coarsenings: int = unit_field(
+        "1",
+        "How often the elements are doubled for the ramp; the crumple is then refined, and relaxed "
+        "on every mesh.",
+        0,
+        ge=0,
+        le=3,
+    )
     element: choice_of(ELEMENTS) = registry_field(
         ELEMENTS, "corner", "Where an element samples its strains. "
     )
@@ -97,8 +105,13 @@ class Mesh(Section):
         error = self.energy_error_percent / 100
         size = 1e3 * element_size_for(error, diameter_mm / 2 * 1e-3, thickness_um * 1e-6)
         fitting = min(math.pi * diameter_mm / ELEMENTS_AROUND_MIN, shortest_mm / ELEMENTS_ALONG_MIN)
+        fitting /= 2**self.ramp_coarsenings
         size = size if size <= fitting else float(_floor(fitting))
-        return Mesh(element_size_mm=round(size, 9), element=self.element)
+        return Mesh(
+            element_size_mm=round(size, 9),
+            element=self.element,
+            ramp_coarsenings=self.ramp_coarsenings,
+        )
 
 
 @dataclass(frozen=True)
@@ -126,28 +139,30 @@ class MeshUse:
 def mesh_problems(mesh: Mesh, use: MeshUse) -> Iterator[str]:
     """One sentence for each problem of the meshes, with its remedy."""
     if mesh.element_size_mm != AUTO:
-        yield from _size_problems(use, mesh.element_size_mm, "")
+        yield from _size_problems(use, mesh, mesh.element_size_mm, "")
         return
     # the thinnest foil has the finest mesh, the thickest one the coarsest
     for thickness in sorted({use.thicknesses_um[0], use.thicknesses_um[-1]}):
         which = f" (auto, {thickness:g} um, {mesh.energy_error_percent:g} % of energy error)"
         size = mesh.resolved(use.diameter_mm, use.heights_mm[0], thickness).element_size_mm
-        yield from _size_problems(use, size, which)
+        yield from _size_problems(use, mesh, size, which)
 
 
-def _size_problems(use: MeshUse, size: float, which: str) -> Iterator[str]:
+def _size_problems(use: MeshUse, mesh: Mesh, size: float, which: str) -> Iterator[str]:
     circumference, heights = math.pi * use.diameter_mm, use.heights_mm
-    around, along = round(circumference / size), round(heights[0] / size)
+    doubled = 2**mesh.ramp_coarsenings
+    larger = size * doubled
+    around, along = round(circumference / larger), round(heights[0] / larger)
     if around < ELEMENTS_AROUND_MIN or along < ELEMENTS_ALONG_MIN:
         finest = min(circumference / ELEMENTS_AROUND_MIN, heights[0] / ELEMENTS_ALONG_MIN)
         yield (
             f"mesh.element_size_mm is {size:g} mm{which}, too coarse: it leaves {around} elements "
             f"around the circumference (at least {ELEMENTS_AROUND_MIN}) and {along} along the "
-            f"shortest cylinder (at least {ELEMENTS_ALONG_MIN}); use {_floor(finest)} mm or "
-            "less."
+            f"shortest cylinder (at least {ELEMENTS_ALONG_MIN}){_of_ramp(mesh)}; use "
+            f"{_floor(finest / doubled)} mm or less."
         )
     else:
-        lengths = [height / round(height / size) for height in heights]
+        lengths = [height / round(height / larger) for height in heights]
         yield from _smoothing_problems(use, max(circumference / around, *lengths))
     finest = size / 2**use.refinements
     elements = circumference * heights[-1] / finest**2
@@ -163,6 +178,12 @@ def _size_problems(use: MeshUse, size: float, which: str) -> Iterator[str]:
             f"the longest cylinder, refined {times(use.refinements)} (at most "
             f"{ELEMENTS_MAX:g}); {remedy}."
         )
+
+
+def _of_ramp(mesh: Mesh) -> str:
+    if not mesh.ramp_coarsenings:
+        return ""
+    return f" for the ramp, by mesh.ramp_coarsenings: {mesh.ramp_coarsenings}"
 
 
 def _smoothing_problems(use: MeshUse, size: float) -> Iterator[str]:

@@ -29,7 +29,7 @@ def recipe_of(task: CrumpleTask) -> Recipe:
 
 def mesh_of(section: MeshSection) -> Mesh:
     """The mesh, its element size a number already."""
-    return Mesh(section.element_size_mm * 1e-3, section.element)
+    return Mesh(section.element_size_mm * 1e-3, section.element, section.ramp_coarsenings)
 
 
 def method_of(task: CrumpleTask) -> Method:
@@ -37,6 +37,7 @@ def method_of(task: CrumpleTask) -> Method:
     method, relaxation = task.method, task.relaxation
     settling = SettleOptions(
         residual_tolerance=relaxation.residual_tolerance,
+        switch_residual=relaxation.switch_residual,
         relaxation_steps_max=relaxation.relaxation_steps_max,
         search=method.search,
     )

@@ -242,6 +242,13 @@ class Relaxation(Section):
         ge=0,
         le=10_000_000,
     )
+    switch_residual: float = unit_field(
+        "1",
+        "Residual at which relaxation gives way to minimisation with the tangent.",
+        1e-4,
+        gt=0,
+        lt=1,
+    )
     residual_tolerance: float = unit_field(
         "1", "Free force norm over ring force norm, at equilibrium.", 1e-8, gt=0, lt=1
     )

@@ -41,8 +41,12 @@ class Patch:
     periodic: bool = True
 
     @classmethod
-    def for_cylinder(cls, diameter: float, height: float, element_size: float) -> Patch:
+    def for_cylinder(
+        cls, diameter: float, height: float, element_size: float, halvings: int = 0
+    ) -> Patch:
         """Nearly square elements of about `element_size`; lengths in m.
+
+        With `halvings` it is a patch of larger elements, refined so many times.
 
         The number around has no prime factor above 7, for the Fourier transform of the mass
         scaling: with 251 or 503 elements, primes next to 2.5 and 1.25 mm, a step takes twice the
@@ -50,8 +54,9 @@ class Patch:
         """
         for what, length in (("diameter", diameter), ("height", height), ("element", element_size)):
             require_number(f"{what} of a cylinder's patch", length, "m", above=0)
-        around = _nearest_smooth(np.pi * diameter / element_size)
-        along = round(height / element_size)
+        larger = element_size * 2**halvings
+        around = _nearest_smooth(np.pi * diameter / larger) * 2**halvings
+        along = round(height / larger) * 2**halvings
         return cls(around, along, np.pi * diameter / around, height / along)
 
     @property

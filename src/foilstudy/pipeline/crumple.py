@@ -9,6 +9,7 @@ from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.model.imperfections.cylinder import imperfect_cylinder
 from foilstudy.pipeline.crumpled import Crumpled, Recipe
 from foilstudy.pipeline.method import Mesh, Method
+from foilstudy.solve.paths import Arrival
 
 
 def crumple(
@@ -40,8 +41,21 @@ def crumple(
         unknown.
     """
     start = uncrumpled(foil, mesh, imperfection, method)
-    arrival = start.method.path.follow(start.problem(), foil.shortening)
-    return replace(start, points=arrival.points, arrival=arrival)
+    path, coarsenings = start.method.path, start.recipe.mesh.ramp_coarsenings
+    if not coarsenings:
+        return _arrived(start, path.follow(start.problem(), foil.shortening))
+    crumpled = _arrived(start, path.push(start.problem(), foil.shortening))
+    for finer in range(1, coarsenings + 1):
+        if crumpled.status == "diverged":
+            break
+        before, crumpled = crumpled.arrival, crumpled.refined()
+        relax = path.settle if finer == coarsenings else path.relax
+        crumpled = _arrived(crumpled, relax(crumpled.problem(), crumpled.points).after(before))
+    return crumpled
+
+
+def _arrived(crumpled: Crumpled, arrival: Arrival) -> Crumpled:
+    return replace(crumpled, points=arrival.points, arrival=arrival)
 
 
 def uncrumpled(
@@ -50,7 +64,7 @@ def uncrumpled(
     imperfection: Imperfection | None = None,
     method: Method | None = None,
 ) -> Crumpled:
-    """The imperfect cylinder from which `crumple` starts."""
+    """The imperfect cylinder from which `crumple` starts, on the mesh of the ramp."""
     if foil.shortening <= 0:
         raise Refusal(
             f"the reference height of a foil is {foil.reference_height:g} m, in a gap of "
@@ -59,7 +73,7 @@ def uncrumpled(
     recipe = Recipe(
         mesh or Mesh.resolving(foil), imperfection or Imperfection(), method or Method()
     )
-    patch = recipe.mesh.patch(foil)
+    patch = recipe.mesh.of_ramp().patch(foil)
     reference = imperfect_cylinder(patch, foil, recipe.imperfection)
     element = recipe.mesh.element_at_work()
     return Crumpled(foil, patch, reference, reference, element, recipe)

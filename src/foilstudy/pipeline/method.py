@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Self
 
 from foilstudy.base.ranges import require_number
@@ -31,10 +31,14 @@ class Mesh:
         Edge length of the elements, m; the patch takes the nearest that fits.
     element : str
         A name of `foilstudy.model.shell.elements.ELEMENTS`.
+    ramp_coarsenings : int
+        How often the elements are doubled for the ramp, after which the crumple is refined and
+        relaxed on this mesh.
     """
 
     element_size: float
     element: str = "corner"
+    ramp_coarsenings: int = 0
 
     def __post_init__(self):
         require_number("element size of a mesh", self.element_size, "m", above=0)
@@ -50,7 +54,13 @@ class Mesh:
 
     def patch(self, foil: Foil) -> Patch:
         """The patch of a foil."""
-        return Patch.for_cylinder(foil.diameter, foil.reference_height, self.element_size)
+        halvings = self.ramp_coarsenings
+        return Patch.for_cylinder(foil.diameter, foil.reference_height, self.element_size, halvings)
+
+    def of_ramp(self) -> Self:
+        """The mesh on which a foil is pushed together."""
+        larger = self.element_size * 2**self.ramp_coarsenings
+        return replace(self, element_size=larger, ramp_coarsenings=0)
 
     def element_at_work(self) -> Element:
         """The element of that name, with its default parameters."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Protocol
 
 import numpy as np
@@ -53,6 +53,22 @@ class Arrival:
     costs: Mapping[str, Cost] = field(default_factory=dict)
     state: tuple[Any, ...] = ()
 
+    def after(self, earlier: Arrival) -> Arrival:
+        """The same with the work and the history of what came before, on a coarser mesh say."""
+        names = {**earlier.costs, **self.costs}
+        costs = {
+            name: sum((a.costs[name] for a in (earlier, self) if name in a.costs), start=Cost())
+            for name in names
+        }
+        return replace(
+            self,
+            steps=earlier.steps + self.steps,
+            newton_steps=earlier.newton_steps + self.newton_steps,
+            hessians=earlier.hessians + self.hessians,
+            history=earlier.history,
+            costs=costs,
+        )
+
     def __repr__(self) -> str:
         return f"<Arrival: {self.status}, {self.message}, {self.steps} steps>"
 
@@ -66,6 +82,14 @@ class Path(Protocol):
 
     def follow(self, problem: Problem, shortening: float) -> Arrival:
         """From the stress-free shape to rings that are nearer by `shortening`, m."""
+        ...
+
+    def push(self, problem: Problem, shortening: float) -> Arrival:
+        """Like `follow`, but only near an equilibrium: ``converged`` says no more than that."""
+        ...
+
+    def relax(self, problem: Problem, points: np.ndarray) -> Arrival:
+        """From any shape to near an equilibrium, the rings held."""
         ...
 
     def settle(self, problem: Problem, points: np.ndarray) -> Arrival:

@@ -50,11 +50,8 @@ class RelaxationPath:
     def follow(self, problem: Problem, shortening: float) -> Arrival:
         """See `Path`."""
         motion, settling = self.scheme.start(problem), self.settling
-        rule = StoppingRule(
-            settling.switch_residual, settling.relaxation_steps_max, self.check_interval
-        )
         with measured() as relaxing:
-            relaxed = relax(problem, motion, Ramp(shortening, self.ramp_steps), rule)
+            relaxed = relax(problem, motion, Ramp(shortening, self.ramp_steps), self._rule())
         if relaxed.status == "diverged":
             return _diverged(relaxed, {"relaxing": relaxing})
         left = settling.relaxation_steps_max - (relaxed.steps - self.ramp_steps)
@@ -62,6 +59,28 @@ class RelaxationPath:
         with measured() as cost:
             settled = settle(problem, motion, relaxed.points, settling)
         return _arrived(problem, settled, {"relaxing": relaxing, "settling": cost}, relaxed)
+
+    def push(self, problem: Problem, shortening: float) -> Arrival:
+        """See `Path`."""
+        return self._relaxed(problem, Ramp(shortening, self.ramp_steps), None)
+
+    def relax(self, problem: Problem, points: np.ndarray) -> Arrival:
+        """See `Path`."""
+        return self._relaxed(problem, Ramp(0.0, 0), points)
+
+    def _relaxed(self, problem: Problem, ramp: Ramp, points: np.ndarray | None) -> Arrival:
+        with measured() as cost:
+            relaxed = relax(problem, self.scheme.start(problem), ramp, self._rule(), points)
+        return Arrival(
+            relaxed.status, relaxed.message, relaxed.points, relaxed.residual, None,
+            relaxed.steps, 0, 0, relaxed.history, {"relaxing": cost},
+        )  # fmt: skip
+
+    def _rule(self) -> StoppingRule:
+        settling = self.settling
+        return StoppingRule(
+            settling.switch_residual, settling.relaxation_steps_max, self.check_interval
+        )
 
     def settle(self, problem: Problem, points: np.ndarray) -> Arrival:
         """See `Path`."""
