@@ -13,12 +13,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from foilstudy.base.registry import Registry, did_you_mean
-from foilstudy.measure.choices import (
-    MODAL_REDUCTIONS,
-    REDUCTIONS,
-    STRESS_REMOVALS,
-    STRUCTURAL_DAMPINGS,
-)
+from foilstudy.measure.choices import REDUCTIONS, STRESS_REMOVALS, STRUCTURAL_DAMPINGS
 from foilstudy.model.imperfections import IMPERFECTIONS
 from foilstudy.model.materials import MATERIALS
 from foilstudy.model.shell.material import LAWS
@@ -330,7 +325,7 @@ class Dynamics(Section):
                 f"dynamics.shown_max_hz ({self.shown_max_hz:g} Hz); lower the first or raise the "
                 "second."
             )
-        if self.cutoff_hz is not None and self.reduction not in MODAL_REDUCTIONS:
+        if self.cutoff_hz is not None and not REDUCTIONS.choice(self.reduction).has_cutoff:
             problems.append(
                 f"dynamics.cutoff_hz is given, but the reduction {self.reduction} has no cut-off; "
                 "remove it, or set dynamics.reduction: hintz_herting."
