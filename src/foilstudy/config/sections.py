@@ -8,7 +8,7 @@ path, because the reader of the message looks at a YAML file, not at this code.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
@@ -18,6 +18,8 @@ from foilstudy.model.imperfections import IMPERFECTIONS
 from foilstudy.model.materials import MATERIALS
 from foilstudy.model.shell.material import LAWS
 from foilstudy.solve.choices import DAMPINGS, MASSES, PATHS, SEARCHES
+
+from .choices import choice_of
 
 CORRELATION_LENGTH_DEFAULT_MM = 15.0
 TEXT_MAX = 200
@@ -30,11 +32,6 @@ CONSTANTS = ("youngs_modulus_mpa", "poisson_ratio", "density_kg_m3", "yield_stre
 def unit_field(unit: str, description: str, default: Any = ..., **constraints: Any) -> Any:
     """Field of a section with its unit recorded for the schema and the reference page."""
     return Field(default, description=description, json_schema_extra={"unit": unit}, **constraints)
-
-
-def choice_of(registry: Registry) -> Any:
-    """Type of a field whose value is a name of a registry."""
-    return Literal[tuple(registry)]
 
 
 def registry_field(registry: Registry, default: str, what: str = "") -> Any:
