@@ -20,6 +20,7 @@ from foilstudy.base.record import read_record
 from foilstudy.config import load_config
 from foilstudy.present.files import StudyFiles
 from foilstudy.present.redraw import redraw
+from foilstudy.present.report.page import _other_physics
 from foilstudy.present.shown import shown
 from foilstudy.study.stale import sentences
 from foilstudy.study.sweep import origins
@@ -331,6 +332,15 @@ def test_the_page_is_drawn_from_the_records_of_its_cube_alone(results):
     assert len(StudyFiles.found(results / "cube.nc").crumple_paths) == 4
     shutil.copy(results / "realisations/t500um/h150mm/1/crumple.nc", results / FIRST / "crumple.nc")
     assert StudyFiles.found(results / "cube.nc").crumple_paths == ()
+
+
+def test_the_page_says_where_the_code_of_its_cube_is_no_more(results, monkeypatch):
+    cube = StudyFiles(results / "cube.nc").cube
+    assert _other_physics(cube) == []
+    with monkeypatch.context() as patch:
+        patch.setattr(Code, "fingerprint", _changed(origins.RESPONSE))
+        assert "has changed since this cube was made" in _other_physics(cube)[0]
+    assert _other_physics(cube.assign_attrs(config="study: {}")) != []
 
 
 # --- origins and fingerprints --------------------------------------------------------------------
