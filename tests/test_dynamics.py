@@ -12,15 +12,11 @@ from scipy.sparse.linalg import eigsh
 from foilstudy.config import Dynamics
 from foilstudy.config.scene import dynamics_of
 from foilstudy.linalg import factorise
-from foilstudy.measure.choices import MODAL_REDUCTIONS
+from foilstudy.measure import choices
 from foilstudy.measure.dynamics import (
     DEFINITIONS,
-    CraigBampton,
     DynamicsOptions,
-    Guyan,
-    HintzHerting,
     ModalDamping,
-    RationalKrylov,
     RayleighDamping,
     ReducedModel,
     StructuralDamping,
@@ -37,6 +33,10 @@ from foilstudy.measure.dynamics import (
 )
 from foilstudy.measure.dynamics.reduction import project
 from foilstudy.measure.dynamics.reductions.by_need import with_enough_modes
+from foilstudy.measure.dynamics.reductions.craig_bampton import CraigBampton
+from foilstudy.measure.dynamics.reductions.guyan import Guyan
+from foilstudy.measure.dynamics.reductions.hintz_herting import HintzHerting
+from foilstudy.measure.dynamics.reductions.rational_krylov import RationalKrylov
 from foilstudy.measure.dynamics.structure import INTERFACE, bordered
 from foilstudy.measure.stiffness import InterfaceSystem, fixed_stiffness
 from foilstudy.measure.stiffness.rings import interface_rigid_modes
@@ -234,7 +234,7 @@ def test_all_modes_of_a_symmetric_sheet_are_counted():
 
 @pytest.mark.parametrize("name", REDUCTIONS)
 def test_a_study_can_use_every_reduction(name, structure):
-    cutoff = {"cutoff_hz": 700.0} if name in MODAL_REDUCTIONS else {}
+    cutoff = {"cutoff_hz": 700.0} if choices.REDUCTIONS.choice(name).has_cutoff else {}
     section = Dynamics(reduction=name, shown_max_hz=BAND_HZ, frequencies=40, **cutoff)
     vibration = vibration_of(structure, dynamics_of(section))
     valid = vibration.frequencies <= vibration.model.valid_to_hz

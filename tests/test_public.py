@@ -14,7 +14,6 @@ from foilstudy.export.contents import Contents
 from foilstudy.measure.dynamics import (
     DynamicsOptions,
     EvenGrid,
-    HintzHerting,
     ModalDamping,
     RayleighDamping,
     StructuralDamping,
@@ -24,6 +23,7 @@ from foilstudy.measure.dynamics import (
     interface_dynamic_stiffness,
     receptance,
 )
+from foilstudy.measure.dynamics.reductions.hintz_herting import HintzHerting
 from foilstudy.measure.stiffness import Rings
 from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.model.materials import MATERIALS, Material, material

@@ -15,7 +15,6 @@ from foilstudy.base.record import read_record
 from foilstudy.config import load_config
 from foilstudy.linalg import SolveError, TooManyModes, factorise, modes_below, shifted
 from foilstudy.measure.dynamics import (
-    CraigBampton,
     DynamicsOptions,
     ModalDamping,
     RayleighDamping,
@@ -24,6 +23,7 @@ from foilstudy.measure.dynamics import (
     Wanted,
 )
 from foilstudy.measure.dynamics.reductions import by_need
+from foilstudy.measure.dynamics.reductions.craig_bampton import CraigBampton
 from foilstudy.measure.stiffness import fixed_stiffness
 from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.model.patch import Patch

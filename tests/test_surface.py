@@ -9,7 +9,7 @@ import pytest
 from conftest import DIAMETER, FEP, FOIL, THICKNESS, cylinder, rotation
 
 from foilstudy.export.contents import surface_grid
-from foilstudy.measure.dynamics import HintzHerting
+from foilstudy.measure.dynamics.reductions.hintz_herting import HintzHerting
 from foilstudy.measure.stiffness import InterfaceSystem, Rings, condense, fixed_stiffness
 from foilstudy.model.patch import knot_points
 from foilstudy.pipeline.shape import Shape

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 from foilstudy.export.formats import FORMATS
 
+from .choices import choice_of
 from .sections import Section, unit_field
 
 __all__ = ["Export"]
@@ -18,7 +17,7 @@ class Export(Section):
     `docs/exchange.md`.
     """
 
-    formats: tuple[Literal[tuple(FORMATS)], ...] = unit_field(
+    formats: tuple[choice_of(FORMATS), ...] = unit_field(
         "list of choices",
         FORMATS.words,
         (),

@@ -14,7 +14,8 @@ from foilstudy.model.foil import SMOOTH_LENGTH_MIN
 from foilstudy.model.mesh_size import element_size_for
 from foilstudy.model.shell.elements import ELEMENTS
 
-from .sections import Section, choice_of, registry_field, unit_field
+from .choices import choice_of
+from .sections import Section, registry_field, unit_field
 
 AUTO = "auto"
 ENERGY_ERROR_DEFAULT_PERCENT = 10.0

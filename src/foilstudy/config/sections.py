@@ -8,21 +8,18 @@ path, because the reader of the message looks at a YAML file, not at this code.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from foilstudy.base.registry import Registry, did_you_mean
-from foilstudy.measure.choices import (
-    MODAL_REDUCTIONS,
-    REDUCTIONS,
-    STRESS_REMOVALS,
-    STRUCTURAL_DAMPINGS,
-)
+from foilstudy.measure.choices import REDUCTIONS, STRESS_REMOVALS, STRUCTURAL_DAMPINGS
 from foilstudy.model.imperfections import IMPERFECTIONS
 from foilstudy.model.materials import MATERIALS
 from foilstudy.model.shell.material import LAWS
 from foilstudy.solve.choices import DAMPINGS, MASSES, PATHS, SEARCHES
+
+from .choices import choice_of
 
 CORRELATION_LENGTH_DEFAULT_MM = 15.0
 TEXT_MAX = 200
@@ -35,11 +32,6 @@ CONSTANTS = ("youngs_modulus_mpa", "poisson_ratio", "density_kg_m3", "yield_stre
 def unit_field(unit: str, description: str, default: Any = ..., **constraints: Any) -> Any:
     """Field of a section with its unit recorded for the schema and the reference page."""
     return Field(default, description=description, json_schema_extra={"unit": unit}, **constraints)
-
-
-def choice_of(registry: Registry) -> Any:
-    """Type of a field whose value is a name of a registry."""
-    return Literal[tuple(registry)]
 
 
 def registry_field(registry: Registry, default: str, what: str = "") -> Any:
@@ -337,7 +329,7 @@ class Dynamics(Section):
                 f"dynamics.shown_max_hz ({self.shown_max_hz:g} Hz); lower the first or raise the "
                 "second."
             )
-        if self.cutoff_hz is not None and self.reduction not in MODAL_REDUCTIONS:
+        if self.cutoff_hz is not None and not REDUCTIONS.choice(self.reduction).has_cutoff:
             problems.append(
                 f"dynamics.cutoff_hz is given, but the reduction {self.reduction} has no cut-off; "
                 "remove it, or set dynamics.reduction: hintz_herting."

@@ -1,6 +1,22 @@
 """What there is to choose from in measuring: one file each, one line here."""
 
+from dataclasses import dataclass
+
 from foilstudy.base.registry import Choice, Registry
+
+
+@dataclass(frozen=True)
+class ReductionChoice(Choice):
+    """A reduction.
+
+    Attributes
+    ----------
+    has_cutoff : bool
+        Whether it keeps the modes up to a frequency.
+    """
+
+    has_cutoff: bool = False
+
 
 STRESS_REMOVALS = Registry(
     "stress removal",
@@ -14,23 +30,23 @@ STRESS_REMOVALS = Registry(
 REDUCTIONS = Registry(
     "reduction",
     {
-        "rational_krylov": Choice(
+        "rational_krylov": ReductionChoice(
             "measure.dynamics.reductions.rational_krylov:RationalKrylov",
             "chooses its order from the tolerance",
         ),
-        "hintz_herting": Choice(
+        "hintz_herting": ReductionChoice(
             "measure.dynamics.reductions.hintz_herting:HintzHerting",
             "keeps the free modes up to `cutoff_hz`, as published",
+            has_cutoff=True,
         ),
-        "craig_bampton": Choice(
+        "craig_bampton": ReductionChoice(
             "measure.dynamics.reductions.craig_bampton:CraigBampton",
             "keeps the clamped modes up to `cutoff_hz`",
+            has_cutoff=True,
         ),
-        "guyan": Choice("measure.dynamics.reductions.guyan:Guyan", "quasi-static"),
+        "guyan": ReductionChoice("measure.dynamics.reductions.guyan:Guyan", "quasi-static"),
     },
 )
-MODAL_REDUCTIONS = ("hintz_herting", "craig_bampton")
-"""Reductions that have a cut-off."""
 STRUCTURAL_DAMPINGS = Registry(
     "damping",
     {

@@ -7,7 +7,8 @@ from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
 
-from foilstudy.config import Isolation
+from foilstudy.base.errors import ConfigError
+from foilstudy.config import Isolation, StudyConfig, load_config
 from foilstudy.model.materials import Material
 
 
@@ -32,6 +33,14 @@ def _parsed(text: str) -> Mapping[str, Any]:
     import yaml
 
     return MappingProxyType(yaml.safe_load(text) or {})
+
+
+def study_of(cube) -> StudyConfig | None:
+    """The whole study; None where its configuration is no longer valid."""
+    try:
+        return load_config(configuration(cube))
+    except ConfigError:
+        return None
 
 
 def isolation_options(cube) -> Isolation:

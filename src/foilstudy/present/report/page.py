@@ -15,7 +15,7 @@ from foilstudy.base import numerals
 from foilstudy.base.files import written_whole
 from foilstudy.plot.save import inches_wide
 from foilstudy.present.comparison import comparable, comparison_sentence, studied_case
-from foilstudy.present.configuration import configuration, isolation_options
+from foilstudy.present.configuration import configuration, isolation_options, study_of
 from foilstudy.present.figures import FIGURES
 from foilstudy.present.files import StudyFiles
 from foilstudy.present.report import (
@@ -298,7 +298,8 @@ def _provenance(cube: xr.Dataset) -> list[tuple[str, str]]:
 
 def _other_physics(cube: xr.Dataset) -> list[str]:
     """A sentence where the code of today would not crumple or measure as that of the cube."""
-    if all(cube.attrs.get(name) == code for name, code in physics_codes().items()):
+    study = study_of(cube)
+    if study and all(cube.attrs.get(k) == code for k, code in physics_codes(study).items()):
         return []
     return [
         "The code that crumples or measures has changed since this cube was made; running the "

@@ -10,12 +10,8 @@ import numpy as np
 from foilstudy.base.costs import measured
 from foilstudy.linalg import SolveError
 from foilstudy.measure.dynamics import (
-    CraigBampton,
     Damping,
-    Guyan,
-    HintzHerting,
     ModalDamping,
-    RationalKrylov,
     ReducedModel,
     Reduction,
     StructuralDamping,
@@ -28,6 +24,10 @@ from foilstudy.measure.dynamics import (
     relative_error,
 )
 from foilstudy.measure.dynamics.mac import mac
+from foilstudy.measure.dynamics.reductions.craig_bampton import CraigBampton
+from foilstudy.measure.dynamics.reductions.guyan import Guyan
+from foilstudy.measure.dynamics.reductions.hintz_herting import HintzHerting
+from foilstudy.measure.dynamics.reductions.rational_krylov import RationalKrylov
 from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.structures import prestressed_structure, stress_free_structure
 from foilstudy.pipeline.vibration import surface_modes

@@ -117,7 +117,7 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
         words = {"units": "1", "long_name": f"digest of the record {name}.nc"}
         cube[f"{name}_digest"] = (_CELL, values, words)
     origin = cube_origin(study, digests, attributes["digest"])
-    cube.attrs |= origin.attributes() | {"digest": origin.digest} | physics_codes()
+    cube.attrs |= origin.attributes() | {"digest": origin.digest} | physics_codes(study)
     cube.attrs[CONTENT] = digest_of({name: v.values for name, v in cube.variables.items()})
     _write(cube, path)
     return cube

@@ -1,4 +1,7 @@
-"""What each record of a study is made of, and which code decides it."""
+"""What each record of a study is made of, and which code decides it.
+
+Of strategies, elements and the like only what the task of a record chooses counts as its code.
+"""
 
 from __future__ import annotations
 
@@ -9,12 +12,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from pydantic import ValidationError
 
 from foilstudy.base.errors import Refusal
 from foilstudy.base.fingerprint import Code, fingerprint_of_files
 from foilstudy.base.origin import Origin
 from foilstudy.base.record import AGAIN, read_record
 from foilstudy.config import Cell, CrumpleTask, RefineTask, ResponseTask, StudyConfig
+from foilstudy.config.choices import choices_of
+from foilstudy.export.formats import FORMATS
 
 _CRUMPLING = (
     "config.foils",
@@ -31,13 +37,17 @@ _CRUMPLING = (
 )
 _MEASURING = (*_CRUMPLING, "measure", "pipeline")
 
-CRUMPLE = Code(("study.sweep.crumple",), _CRUMPLING)
-RESPONSE = Code(("study.sweep.respond",), _MEASURING)
-REFINED = Code(("study.sweep.relax_refined",), _MEASURING)
+# a task says all constants of its material, by which name they were ever found
+_TABLE = ("model.material_table",)
+
+CRUMPLE = Code(("study.sweep.crumple",), _CRUMPLING, _TABLE)
+RESPONSE = Code(("study.sweep.respond",), _MEASURING, _TABLE)
+# relaxing takes no dynamics, and its task says nothing of them
+REFINED = Code(("study.sweep.relax_refined",), _MEASURING, (*_TABLE, "measure.dynamics"))
 # its task says `auto`, and not the size that comes of it
-CYLINDER = Code(("study.sweep.cylinder", "config.mesh"), _MEASURING)
+CYLINDER = Code(("study.sweep.cylinder", "config.mesh"), _MEASURING, _TABLE)
 CUBE = Code(("study.sweep.cube", "config.model"), ("study.sweep.quantities",))
-EXPORT = Code(("study.sweep.export",), (*_MEASURING, "export"))
+EXPORT = Code(("study.sweep.export",), (*_MEASURING, "export"), _TABLE)
 
 PRESENTING = Code(
     ("present.jobs",),
@@ -51,7 +61,7 @@ _FOIL = ("sheet", "material", "thickness_um", "reference_height_mm", "seed")
 
 
 def remember_codes() -> None:
-    """Take the fingerprints of all code as it is now, for this process and its children.
+    """Read all code as it is now, for this process and its children, whatever a task chooses.
 
     A job that began with the code of before an edit may end after it.
     """
@@ -60,9 +70,39 @@ def remember_codes() -> None:
     presented_origin({})
 
 
-def physics_codes() -> dict[str, str]:
+def physics_codes(study: StudyConfig) -> dict[str, str]:
     """Fingerprints of what crumples and of what measures, by the names of a cube's attributes."""
-    return {"crumple_code": CRUMPLE.fingerprint(), "response_code": RESPONSE.fingerprint()}
+    cell = study.cells()[0]
+    crumple = study.crumple_task(cell)
+    return {
+        "crumple_code": _crumple_code(crumple),
+        "response_code": _code(RESPONSE, study.response_task(cell), crumple),
+    }
+
+
+def _code(
+    code: Code,
+    task: RefineTask | ResponseTask,
+    crumple: CrumpleTask | None,
+    formats: tuple[str, ...] = (),
+) -> str:
+    """Fingerprint for a task that goes on with a crumple; of all code if that is not known."""
+    if crumple is None:
+        return code.fingerprint()
+    chosen = choices_of(task, crumple) | {FORMATS.kind: formats}
+    return code.choosing(chosen).fingerprint()
+
+
+def _crumple_code(task: CrumpleTask | None) -> str:
+    return (CRUMPLE.choosing(choices_of(task)) if task else CRUMPLE).fingerprint()
+
+
+def _recorded(crumple: Mapping[str, Any]) -> CrumpleTask | None:
+    """Task of a crumple by the attributes of its record; None if it is of another release."""
+    try:
+        return CrumpleTask.model_validate_json(crumple["task"])
+    except ValidationError:
+        return None
 
 
 def cell_folder(results: Path, cell: Cell) -> Path:
@@ -72,22 +112,25 @@ def cell_folder(results: Path, cell: Cell) -> Path:
 
 def crumple_origin(task: CrumpleTask) -> Origin:
     """Of a ``crumple.nc``."""
-    return Origin(task.model_dump_json(), CRUMPLE.fingerprint())
+    return Origin(task.model_dump_json(), _crumple_code(task))
 
 
 def response_origin(task: ResponseTask, crumple: Mapping[str, Any]) -> Origin:
     """Of a ``response.nc``; `crumple` are the attributes of the crumple's record."""
-    return Origin(task.model_dump_json(), RESPONSE.fingerprint(), (crumple["digest"],))
+    code = _code(RESPONSE, task, _recorded(crumple))
+    return Origin(task.model_dump_json(), code, (crumple["digest"],))
 
 
 def refined_origin(task: RefineTask, crumple: Mapping[str, Any]) -> Origin:
     """Of a ``refined.nc``; `crumple` are the attributes of the crumple's record."""
-    return Origin(task.model_dump_json(), REFINED.fingerprint(), (crumple["digest"],))
+    code = _code(REFINED, task, _recorded(crumple))
+    return Origin(task.model_dump_json(), code, (crumple["digest"],))
 
 
 def cylinder_origin(study: StudyConfig) -> Origin:
     """Of a ``cylinder.nc``."""
-    return Origin(study.cylinder_task(), CYLINDER.fingerprint())
+    chosen = choices_of(study.sheet, study.material, study.sweep, study.mesh)
+    return Origin(study.cylinder_task(), CYLINDER.choosing(chosen).fingerprint())
 
 
 def parts_of(study: StudyConfig) -> tuple[str, ...]:
@@ -125,7 +168,8 @@ def export_origin(
 ) -> Origin:
     """Of an export folder."""
     content = task.model_dump(mode="json") | {"formats": list(formats)}
-    return Origin(json.dumps(content), EXPORT.fingerprint(), (crumple["digest"],))
+    code = _code(EXPORT, task, _recorded(crumple), formats)
+    return Origin(json.dumps(content), code, (crumple["digest"],))
 
 
 def read_crumple(
@@ -139,7 +183,8 @@ def read_crumple(
         If the record is unreadable, of another foil or seed, or made by other code.
     """
     values, attributes = read_record(path)
-    wanted = Origin(_named(task.model_dump_json()), CRUMPLE.fingerprint())
+    code = _crumple_code(_recorded(attributes))
+    wanted = Origin(_named(task.model_dump_json()), code)
     refuse_departure(path, Origin(_named(attributes["task"]), attributes["code"]), wanted)
     return values, attributes
 
