@@ -6,13 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from foilstudy.measure.stiffness import (
-    InterfaceSystem,
-    Rings,
-    condense,
-    fixed_stiffness,
-    mesh_limit,
-)
+from foilstudy.measure.stiffness import mesh_limit, transfer_stiffness
 from foilstudy.model.shell.elements.sampled import STAGGERED
 from foilstudy.pipeline.shape import Shape
 
@@ -46,9 +40,7 @@ def stress_free_stiffness(shape: Shape) -> np.ndarray:
     SolveError
         If it is singular.
     """
-    rings = Rings.of(shape.patch, shape.points)
-    matrix = shape.relieved().tangent()
-    return fixed_stiffness(condense(InterfaceSystem.split(matrix, rings)).stiffness)
+    return transfer_stiffness(shape.relieved())
 
 
 def mesh_limit_of(shape: Shape, refinements: int, coarsest: np.ndarray | None = None) -> MeshLimit:

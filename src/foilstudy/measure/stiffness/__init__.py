@@ -5,6 +5,7 @@ from foilstudy.measure.stiffness.directional import fixed_stiffness, free_stiffn
 from foilstudy.measure.stiffness.mesh_error import mesh_limit
 from foilstudy.measure.stiffness.prestressed import prestressed_stiffness
 from foilstudy.measure.stiffness.rings import DOF_NAMES, Rings
+from foilstudy.measure.stiffness.transfer import transfer_stiffness
 
 __all__ = [
     "DOF_NAMES",
@@ -16,4 +17,5 @@ __all__ = [
     "free_stiffness",
     "mesh_limit",
     "prestressed_stiffness",
+    "transfer_stiffness",
 ]

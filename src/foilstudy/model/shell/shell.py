@@ -128,7 +128,11 @@ class Shell:
         ValueError
             If there are fewer than five control points around.
         """
-        return block_matrix(self.patch, self._kernel.tangent_blocks(points))
+        return block_matrix(self.patch, self.tangent_blocks(points))
+
+    def tangent_blocks(self, points: np.ndarray | None = None) -> np.ndarray:
+        """The same by control point and neighbour, shape (rows, columns, 5, 5, 3, 3)."""
+        return self._kernel.tangent_blocks(points)
 
     def energies(self, points: np.ndarray) -> Energies:
         """Strain energies at the given shape."""
