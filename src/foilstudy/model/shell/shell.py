@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sparse
@@ -10,7 +11,7 @@ import scipy.sparse as sparse
 from foilstudy.model.materials import Material
 from foilstudy.model.patch import Patch
 from foilstudy.model.shell.elements.corner import Corner
-from foilstudy.model.shell.elements.protocol import Element
+from foilstudy.model.shell.elements.protocol import Element, ElementKernel
 from foilstudy.model.shell.material.elastic import Elastic
 from foilstudy.model.shell.section import Section
 from foilstudy.model.shell.tangent import block_matrix
@@ -50,7 +51,11 @@ class Shell:
     def __init__(self, section: Section, element: Element | None = None):
         self.section = section
         self.element = Corner() if element is None else element
-        self._kernel = self.element.kernel(section)
+
+    @cached_property
+    def _kernel(self) -> ElementKernel:
+        """Made when it is needed: what a shell is relieved from is often not asked anything."""
+        return self.element.kernel(self.section)
 
     def __repr__(self) -> str:
         return f"<Shell: {self.section}, {self.element.name}>"
