@@ -131,9 +131,7 @@ def test_three_loads_give_the_stiffness_of_all_twelve(height):
 
 def test_transfer_stiffness_of_a_crumple(coarse_crumple, coarse_static):
     expected = fixed_stiffness(coarse_static.stiffness)
-    np.testing.assert_allclose(
-        transfer_stiffness(coarse_crumple.stress_free), expected, rtol=1e-9
-    )
+    np.testing.assert_allclose(transfer_stiffness(coarse_crumple.stress_free), expected, rtol=1e-9)
 
 
 def test_fixed_and_free_stiffness_of_a_known_matrix():
