@@ -13,7 +13,6 @@ from foilstudy.solve.paths.relaxation import RelaxationPath
 
 QUICK = Method(RelaxationPath(400))
 CASES = {
-    "250 um": (250e-6, Imperfection(seed=1)),
     "500 um": (500e-6, Imperfection(seed=0)),
     "250 um, smooth": (250e-6, Imperfection("smoothed", 10e-6, 30e-3, 1)),
 }

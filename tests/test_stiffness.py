@@ -13,7 +13,9 @@ from foilstudy.measure.stiffness import (
     free_stiffness,
     transfer_stiffness,
 )
+from foilstudy.measure.stiffness.held import held_blocks
 from foilstudy.measure.stiffness.rings import interface_rigid_modes, rigid_motion
+from foilstudy.measure.stiffness.transfer import _pulls
 from foilstudy.model.materials import Material
 from foilstudy.model.patch import refine
 from foilstudy.model.shell.elements.corner import Corner
@@ -127,6 +129,18 @@ def test_three_loads_give_the_stiffness_of_all_twelve(height):
     sheet = cylinder(height / 3 if height < 0.1 else 20e-3, height=height)
     expected = fixed_stiffness(condensed(sheet))
     np.testing.assert_allclose(transfer_stiffness(sheet), expected, rtol=1e-9)
+
+
+def test_moving_both_rings_and_all_between_costs_nothing(coarse_crumple):
+    """The blocks of a row, those of the rings summed, leave no force under a translation."""
+    sheet = coarse_crumple.stress_free
+    blocks = sheet.tangent_blocks()
+    held = held_blocks(sheet.patch, blocks)
+    pulls = sum(_pulls(blocks, ring) for ring in (slice(0, 2), slice(-2, None)))[2:-2]
+    for axis in range(3):
+        moved = np.tile(np.eye(3)[axis], held.shape[0] // 3)
+        force = held @ moved + pulls[..., axis].ravel()
+        assert np.abs(force).max() < 1e-12 * (abs(held) @ moved).max()
 
 
 def test_transfer_stiffness_of_a_crumple(coarse_crumple, coarse_static):
