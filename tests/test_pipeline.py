@@ -206,7 +206,8 @@ def test_every_choice_can_be_loaded_and_knows_its_name(registry):
 
 
 def test_a_strategy_of_a_configuration_reaches_the_method():
-    assert plain(Method())["path"]["scheme"]["mass"] == {"kind": "spectral", "safety": 1.5}
+    mass = {"kind": "spectral", "safety": 1.5, "single": False}
+    assert plain(Method())["path"]["scheme"]["mass"] == mass
     study = load_config(
         {
             "sweep": {"thickness_um": [500], "reference_height_mm": [150]},

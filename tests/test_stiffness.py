@@ -11,8 +11,11 @@ from foilstudy.measure.stiffness import (
     condense,
     fixed_stiffness,
     free_stiffness,
+    transfer_stiffness,
 )
+from foilstudy.measure.stiffness.held import held_blocks
 from foilstudy.measure.stiffness.rings import interface_rigid_modes, rigid_motion
+from foilstudy.measure.stiffness.transfer import _pulls
 from foilstudy.model.materials import Material
 from foilstudy.model.patch import refine
 from foilstudy.model.shell.elements.corner import Corner
@@ -118,6 +121,31 @@ def test_prestress_free_tangent_gives_the_stress_free_stiffness(coarse_crumple, 
     stiffness = condense(InterfaceSystem.split(tangent, rings)).stiffness
     scale = np.abs(coarse_static.stiffness).max()
     np.testing.assert_allclose(stiffness, coarse_static.stiffness, rtol=0, atol=1e-10 * scale)
+
+
+@pytest.mark.parametrize("height", [0.17, 0.03])
+def test_three_loads_give_the_stiffness_of_all_twelve(height):
+    """Also where one ring is within the reach of the other."""
+    sheet = cylinder(height / 3 if height < 0.1 else 20e-3, height=height)
+    expected = fixed_stiffness(condensed(sheet))
+    np.testing.assert_allclose(transfer_stiffness(sheet), expected, rtol=1e-9)
+
+
+def test_moving_both_rings_and_all_between_costs_nothing(coarse_crumple):
+    """The blocks of a row, those of the rings summed, leave no force under a translation."""
+    sheet = coarse_crumple.stress_free
+    blocks = sheet.tangent_blocks()
+    held = held_blocks(sheet.patch, blocks)
+    pulls = sum(_pulls(blocks, ring) for ring in (slice(0, 2), slice(-2, None)))[2:-2]
+    for axis in range(3):
+        moved = np.tile(np.eye(3)[axis], held.shape[0] // 3)
+        force = held @ moved + pulls[..., axis].ravel()
+        assert np.abs(force).max() < 1e-12 * (abs(held) @ moved).max()
+
+
+def test_transfer_stiffness_of_a_crumple(coarse_crumple, coarse_static):
+    expected = fixed_stiffness(coarse_static.stiffness)
+    np.testing.assert_allclose(transfer_stiffness(coarse_crumple.stress_free), expected, rtol=1e-9)
 
 
 def test_fixed_and_free_stiffness_of_a_known_matrix():
