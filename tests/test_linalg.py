@@ -12,7 +12,7 @@ from conftest import cylinder
 
 from foilstudy.linalg import (
     BlockKrylov,
-    DefiniteBlocks,
+    SymmetricBlocks,
     SolveError,
     backend,
     dissection,
@@ -26,7 +26,7 @@ from foilstudy.linalg import (
 from foilstudy.linalg.pardiso import PardisoFactorisation
 from foilstudy.linalg.superlu import SuperLUFactorisation
 from foilstudy.measure.stiffness import InterfaceSystem, Rings
-from foilstudy.measure.stiffness.held import held_blocks
+from foilstudy.model.shell.held import held_blocks
 from foilstudy.model.shell.elements.sampled import STAGGERED
 from foilstudy.model.shell.tangent import mass_matrix
 
@@ -372,7 +372,7 @@ def test_blocks_that_are_not_definite_are_refused(solver):
     values = blocks.values.copy()
     values[blocks.pattern.starts[7]] *= -1
     with pytest.raises(SolveError):
-        factorise(DefiniteBlocks(blocks.pattern, values))
+        factorise(SymmetricBlocks(blocks.pattern, values))
 
 
 @pytest.mark.skipif(not pardiso.available(), reason="needs MKL")

@@ -13,7 +13,7 @@ from foilstudy.measure.stiffness import (
     free_stiffness,
     transfer_stiffness,
 )
-from foilstudy.measure.stiffness.held import held_blocks
+from foilstudy.model.shell.held import held_blocks
 from foilstudy.measure.stiffness.rings import interface_rigid_modes, rigid_motion
 from foilstudy.measure.stiffness.transfer import _pulls
 from foilstudy.model.materials import Material

@@ -1,6 +1,6 @@
 """Sparse symmetric factorisation and eigenpairs behind one face."""
 
-from foilstudy.linalg.blocks import BlockPattern, DefiniteBlocks
+from foilstudy.linalg.blocks import BlockPattern, SymmetricBlocks
 from foilstudy.linalg.dissection import dissection
 from foilstudy.linalg.eigenpairs import (
     MODES_MAX,
@@ -18,7 +18,7 @@ __all__ = [
     "MODES_MAX",
     "BlockKrylov",
     "BlockPattern",
-    "DefiniteBlocks",
+    "SymmetricBlocks",
     "Factorisation",
     "Modes",
     "SolveError",

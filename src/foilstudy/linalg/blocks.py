@@ -34,7 +34,7 @@ class BlockPattern:
 
 
 @dataclass(frozen=True, eq=False)
-class DefiniteBlocks:
+class SymmetricBlocks:
     """A positive definite matrix by the blocks of its upper triangle.
 
     Attributes
@@ -47,7 +47,7 @@ class DefiniteBlocks:
     values: np.ndarray
 
     def __repr__(self) -> str:
-        return f"<DefiniteBlocks: {self.shape[0]} unknowns, {len(self.values)} blocks>"
+        return f"<SymmetricBlocks: {self.shape[0]} unknowns, {len(self.values)} blocks>"
 
     @property
     def width(self) -> int:
@@ -64,9 +64,9 @@ class DefiniteBlocks:
         """Diagonal of the matrix."""
         return np.einsum("kii->ki", self.values[self.pattern.starts[:-1]]).ravel()
 
-    def __abs__(self) -> DefiniteBlocks:
+    def __abs__(self) -> SymmetricBlocks:
         """The same with the sizes of all numbers."""
-        return DefiniteBlocks(self.pattern, np.abs(self.values))
+        return SymmetricBlocks(self.pattern, np.abs(self.values))
 
     def __matmul__(self, vector: np.ndarray) -> np.ndarray:
         """Product with one vector."""

@@ -13,7 +13,7 @@ import numpy as np
 import scipy.sparse as sparse
 
 from foilstudy.linalg import pardiso
-from foilstudy.linalg.blocks import DefiniteBlocks
+from foilstudy.linalg.blocks import SymmetricBlocks
 from foilstudy.linalg.errors import SolveError
 from foilstudy.linalg.pardiso import PardisoFactorisation
 from foilstudy.linalg.superlu import SuperLUFactorisation
@@ -43,13 +43,13 @@ square of element size over thickness, 1e4 in the published case; sheets without
 
 
 def factorise(
-    matrix: sparse.csr_matrix | DefiniteBlocks, residual_tolerance: float = 1e-8
+    matrix: sparse.csr_matrix | SymmetricBlocks, residual_tolerance: float = 1e-8
 ) -> Factorisation:
     """Factor a symmetric matrix and check it on one right-hand side.
 
     Parameters
     ----------
-    matrix : csr_matrix or DefiniteBlocks
+    matrix : csr_matrix or SymmetricBlocks
         Real or complex symmetric (not Hermitian), both triangles stored; or blocks of a positive
         definite one, which take half the time.
     residual_tolerance : float
@@ -78,7 +78,7 @@ def factorise(
     return factor
 
 
-def _sizes(matrix: sparse.csr_matrix | DefiniteBlocks) -> np.ndarray:
+def _sizes(matrix: sparse.csr_matrix | SymmetricBlocks) -> np.ndarray:
     """Square roots of the diagonal; of the largest entry of a row where that is zero."""
     sizes = np.abs(matrix.diagonal())
     if not sizes.all():  # of no definite matrix

@@ -14,7 +14,7 @@ from importlib import metadata
 import numpy as np
 import scipy.sparse as sparse
 
-from foilstudy.linalg.blocks import DefiniteBlocks
+from foilstudy.linalg.blocks import SymmetricBlocks
 from foilstudy.linalg.errors import SolveError, refuse_complex, refuse_not_finite
 
 _SYMMETRIC_DEFINITE, _SYMMETRIC_INDEFINITE, _COMPLEX_SYMMETRIC = 2, -2, 6
@@ -88,9 +88,9 @@ class _Pattern:
         )
 
 
-def _indexed(matrix: sparse.csr_matrix | DefiniteBlocks) -> tuple[_Pattern, np.ndarray]:
+def _indexed(matrix: sparse.csr_matrix | SymmetricBlocks) -> tuple[_Pattern, np.ndarray]:
     """Pattern and values of the upper triangle, as Pardiso wants them."""
-    if isinstance(matrix, DefiniteBlocks):
+    if isinstance(matrix, SymmetricBlocks):
         where = matrix.pattern
         pattern = _Pattern(
             _SYMMETRIC_DEFINITE, where.starts, where.columns, matrix.width, where.order
@@ -147,7 +147,7 @@ _analysed: list[_Job] = []
 _KEPT = 4
 
 
-def _job_for(matrix: sparse.csr_matrix | DefiniteBlocks) -> tuple[_Job, int]:
+def _job_for(matrix: sparse.csr_matrix | SymmetricBlocks) -> tuple[_Job, int]:
     """A job for a matrix, and the phase that factors it.
 
     The analysis (ordering, structure of the factors) costs as much as the factors of a small mesh
@@ -181,8 +181,8 @@ class PardisoFactorisation:
     positive definite get L L^T factors, without pivots, in the order that comes with them.
     """
 
-    def __init__(self, matrix: sparse.csr_matrix | DefiniteBlocks):
-        definite = isinstance(matrix, DefiniteBlocks)
+    def __init__(self, matrix: sparse.csr_matrix | SymmetricBlocks):
+        definite = isinstance(matrix, SymmetricBlocks)
         refuse_not_finite(matrix.values if definite else matrix.data, "the matrix")
         self._job, phase = _job_for(matrix)
         weakref.finalize(self, _give_back, self._job)

@@ -6,7 +6,7 @@ import numpy as np
 import scipy.sparse as sparse
 from scipy.sparse.linalg import splu
 
-from foilstudy.linalg.blocks import DefiniteBlocks
+from foilstudy.linalg.blocks import SymmetricBlocks
 from foilstudy.linalg.errors import SolveError, refuse_complex, refuse_not_finite
 
 
@@ -16,8 +16,8 @@ class SuperLUFactorisation:
     Of a real or a complex symmetric matrix; the latter has no inertia.
     """
 
-    def __init__(self, matrix: sparse.csr_matrix | DefiniteBlocks):
-        definite = isinstance(matrix, DefiniteBlocks)
+    def __init__(self, matrix: sparse.csr_matrix | SymmetricBlocks):
+        definite = isinstance(matrix, SymmetricBlocks)
         matrix = matrix.full() if definite else matrix
         refuse_not_finite(matrix.data, "the matrix")
         try:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sparse
 
-from foilstudy.linalg import DefiniteBlocks, Factorisation, SolveError, factorise
+from foilstudy.linalg import SymmetricBlocks, Factorisation, SolveError, factorise
 from foilstudy.measure.stiffness.rings import Rings
 
 
@@ -56,7 +56,7 @@ class StaticCondensation:
         return f"<StaticCondensation: {len(self.constraint_modes)} interior unknowns>"
 
 
-def factorise_held(interior: sparse.csr_matrix | DefiniteBlocks) -> Factorisation:
+def factorise_held(interior: sparse.csr_matrix | SymmetricBlocks) -> Factorisation:
     """Factor the stiffness with held rings.
 
     Raises

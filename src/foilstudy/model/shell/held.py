@@ -6,12 +6,12 @@ from functools import lru_cache
 
 import numpy as np
 
-from foilstudy.linalg import BlockPattern, DefiniteBlocks, dissection
+from foilstudy.linalg import BlockPattern, SymmetricBlocks, dissection
 from foilstudy.model.patch import RING_ROWS, Patch
 from foilstudy.model.shell.tangent import REACH, sparsity
 
 
-def held_blocks(patch: Patch, blocks: np.ndarray) -> DefiniteBlocks:
+def held_blocks(patch: Patch, blocks: np.ndarray) -> SymmetricBlocks:
     """Stiffness of a shape without stress between its held rings, which is positive definite.
 
     Neither a sparse matrix of all points is made nor is an order sought.
@@ -23,7 +23,7 @@ def held_blocks(patch: Patch, blocks: np.ndarray) -> DefiniteBlocks:
         See `Shell.tangent_blocks`.
     """
     pattern, where = _held_pattern(patch)
-    return DefiniteBlocks(pattern, blocks.reshape(-1, *blocks.shape[-2:])[where])
+    return SymmetricBlocks(pattern, blocks.reshape(-1, *blocks.shape[-2:])[where])
 
 
 @lru_cache(maxsize=4)
