@@ -1,4 +1,4 @@
-"""Symmetric positive definite matrices of small dense blocks."""
+"""Symmetric matrices of small dense blocks."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class BlockPattern:
 
 @dataclass(frozen=True, eq=False)
 class SymmetricBlocks:
-    """A positive definite matrix by the blocks of its upper triangle.
+    """A matrix by the blocks of its upper triangle, factored in the hope that it is definite.
 
     Attributes
     ----------
@@ -63,6 +63,13 @@ class SymmetricBlocks:
     def diagonal(self) -> np.ndarray:
         """Diagonal of the matrix."""
         return np.einsum("kii->ki", self.values[self.pattern.starts[:-1]]).ravel()
+
+    def shifted(self, amount: float) -> SymmetricBlocks:
+        """The same with an amount added to the diagonal."""
+        values = self.values.copy()
+        unknowns = np.arange(self.width)
+        values[self.pattern.starts[:-1, None], unknowns, unknowns] += amount
+        return SymmetricBlocks(self.pattern, values)
 
     def __abs__(self) -> SymmetricBlocks:
         """The same with the sizes of all numbers."""

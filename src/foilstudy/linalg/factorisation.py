@@ -50,8 +50,8 @@ def factorise(
     Parameters
     ----------
     matrix : csr_matrix or SymmetricBlocks
-        Real or complex symmetric (not Hermitian), both triangles stored; or blocks of a positive
-        definite one, which take half the time.
+        Real or complex symmetric (not Hermitian), both triangles stored; or blocks of a real one
+        that has to be positive definite, which take a quarter of the time.
     residual_tolerance : float
         Largest accepted relative residual of the check, |A x - b| / (|A| |x|), scaled to a unit
         diagonal: unknowns may have units of their own, such as m and rad.
@@ -59,7 +59,8 @@ def factorise(
     Raises
     ------
     SolveError
-        If the matrix is singular to working precision or the check fails.
+        If the matrix is singular to working precision, blocks are not positive definite, or the
+        check fails.
     """
     if backend() == "pardiso":
         factor = PardisoFactorisation(matrix)

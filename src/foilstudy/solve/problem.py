@@ -14,7 +14,9 @@ from typing import Any, Protocol
 import numpy as np
 import scipy.sparse as sparse
 
-from foilstudy.model.patch import Patch
+from foilstudy.linalg import SymmetricBlocks
+from foilstudy.model.patch import RING_ROWS, Patch
+from foilstudy.model.shell.held import held_blocks
 from foilstudy.model.shell.shell import Shell
 
 __all__ = ["Problem", "Term"]
@@ -132,6 +134,13 @@ class Problem:
         """Second derivative of the potential energy, N/m; of any sparsity, symmetric."""
         matrices = [t.tangent(points, s) for t, s in zip(self.terms, self.state, strict=True)]
         return sum(matrices[1:], start=matrices[0])
+
+    def held_tangent(self, points: np.ndarray) -> sparse.csr_matrix | SymmetricBlocks:
+        """The same of the control points between held rings; of a mere shell in blocks."""
+        if len(self.terms) == 1:
+            return held_blocks(self.patch, self.shell.tangent_blocks(points))
+        owned = RING_ROWS * 3 * self.patch.columns
+        return self.tangent(points)[owned:-owned, owned:-owned].tocsr()
 
     def commit(self, points: np.ndarray) -> None:
         """Let every term take note that the shape has been reached."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sparse
 
-from foilstudy.linalg import SymmetricBlocks, Factorisation, SolveError, factorise
+from foilstudy.linalg import Factorisation, SolveError, SymmetricBlocks, factorise
 from foilstudy.measure.stiffness.rings import Rings
 
 

@@ -6,8 +6,8 @@ import numpy as np
 
 from foilstudy.measure.stiffness.condensation import factorise_held
 from foilstudy.measure.stiffness.directional import by_direction
-from foilstudy.model.shell.held import held_blocks
 from foilstudy.model.patch import RING_ROWS
+from foilstudy.model.shell.held import held_blocks
 from foilstudy.model.shell.shell import Shell
 
 

@@ -12,7 +12,7 @@ from foilstudy.model.shell.tangent import REACH, sparsity
 
 
 def held_blocks(patch: Patch, blocks: np.ndarray) -> SymmetricBlocks:
-    """Stiffness of a shape without stress between its held rings, which is positive definite.
+    """Stiffness between held rings, to be factored as a definite one.
 
     Neither a sparse matrix of all points is made nor is an order sought.
 

@@ -21,9 +21,11 @@ import scipy.sparse as sparse
 from scipy.linalg import eigh
 from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
 
-from foilstudy.linalg import Factorisation, SolveError, factorise
+from foilstudy.linalg import Factorisation, SolveError, SymmetricBlocks, factorise
 from foilstudy.solve.equilibrium.quasi_newton import InverseHessian
 from foilstudy.solve.residual import relative_residual
+
+Hessian = sparse.csr_matrix | SymmetricBlocks
 
 
 class Potential(Protocol):
@@ -33,8 +35,8 @@ class Potential(Protocol):
         """Value and gradient (n,); where one is not finite, q is out of bounds."""
         ...
 
-    def hessian(self, q: np.ndarray) -> sparse.csr_matrix:
-        """Symmetric (n, n), both triangles stored."""
+    def hessian(self, q: np.ndarray) -> Hessian:
+        """Symmetric (n, n), both triangles stored; or in blocks."""
         ...
 
 
@@ -54,7 +56,7 @@ class NewtonOptions:
         Quasi-Newton steps at most before the Hessian is formed anew; 1 is Newton's method.
     metric : csr_matrix, optional
         Positive definite M of the shift, (n, n), of any size (it is scaled to the Hessian at the
-        start). Default: the identity.
+        start), for a Hessian that is not in blocks. Default: the identity.
     stop_at_saddle : bool
         Whether to end, a step along the lowest eigenvector lower, where the first Hessian is
         indefinite, and leave the way down from there to who is faster on long ways.
@@ -191,7 +193,7 @@ class _Search:
     def _residual(self) -> float:
         return self._options.residual(self._point.q, self._point.gradient)
 
-    def _hessian(self) -> sparse.csr_matrix:
+    def _hessian(self) -> Hessian:
         hessian = self._potential.hessian(self._point.q)
         if self._metric is None:
             metric = self._options.metric
@@ -209,12 +211,11 @@ class _Search:
             self._size = max(self._size, abs(value))
         return _Point(q, float(value), gradient)
 
-    def _definite(self, hessian: sparse.csr_matrix) -> Factorisation:
+    def _definite(self, hessian: Hessian) -> Factorisation:
         """Factor H + s M with the first shift, from the present one upwards, that is enough."""
         while self._shift <= _SHIFT_MAX:
-            shifted = hessian if self._shift == 0 else hessian + self._shift * self._metric
             try:
-                factor = factorise(shifted.tocsr())
+                factor = factorise(self._shifted(hessian))
                 if factor.negative_eigenvalues == 0:
                     return factor
             except SolveError:
@@ -222,7 +223,14 @@ class _Search:
             self._shift = max(_GROW * self._shift, _SHIFT_MIN)
         raise _Stalled("no shift of the Hessian gave a step that lowers the potential")
 
-    def _descend(self, hessian: sparse.csr_matrix) -> None:
+    def _shifted(self, hessian: Hessian) -> Hessian:
+        if self._shift == 0:
+            return hessian
+        if isinstance(hessian, SymmetricBlocks):
+            return hessian.shifted(self._shift * self._metric.diagonal()[0])
+        return (hessian + self._shift * self._metric).tocsr()
+
+    def _descend(self, hessian: Hessian) -> None:
         """Quasi-Newton steps with one factored Hessian."""
         while True:
             factor = self._definite(hessian)
@@ -276,9 +284,7 @@ class _Search:
             return -0.5 * float((self._point.gradient + trial.gradient) @ step)
         return self._point.value - trial.value
 
-    def _leave_saddle(
-        self, hessian: sparse.csr_matrix, factor: Factorisation | None = None
-    ) -> None:
+    def _leave_saddle(self, hessian: Hessian, factor: Factorisation | None = None) -> None:
         """Follow the lowest eigenvector downhill, in doubling steps, as long as that helps."""
         mode = self._lowest_mode(hessian, factor or self._definite(hessian))
         curvature = mode @ (hessian @ mode)
@@ -298,9 +304,10 @@ class _Search:
             best = trial
         self._point = best
 
-    def _lowest_mode(self, hessian: sparse.csr_matrix, factor: Factorisation) -> np.ndarray:
+    def _lowest_mode(self, hessian: Hessian, factor: Factorisation) -> np.ndarray:
         """Eigenvector of the lowest eigenvalue of H x = l M x, by shift-invert Lanczos."""
         size = hessian.shape[0]
+        hessian = _sparse(hessian)
         if size <= _DENSE:
             dense = hessian.toarray(), self._metric.toarray()
             return eigh(*dense, subset_by_index=(0, 0))[1][:, 0]
@@ -328,11 +335,18 @@ class _Search:
         )
 
 
-def _negative_eigenvalues(hessian: sparse.csr_matrix) -> int | None:
+def _negative_eigenvalues(hessian: Hessian) -> int | None:
+    if isinstance(hessian, SymmetricBlocks):
+        with suppress(SolveError):  # most often there is none
+            return factorise(hessian).negative_eigenvalues
     try:
-        return factorise(hessian).negative_eigenvalues
+        return factorise(_sparse(hessian)).negative_eigenvalues
     except SolveError:
         return None
+
+
+def _sparse(hessian: Hessian) -> sparse.csr_matrix:
+    return hessian.full() if isinstance(hessian, SymmetricBlocks) else hessian
 
 
 def _shortening(slope: float, reduction: float) -> float:

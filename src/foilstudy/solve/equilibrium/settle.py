@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy.sparse as sparse
 
+from foilstudy.linalg import SymmetricBlocks
 from foilstudy.model.patch import RING_ROWS
 from foilstudy.solve.choices import SEARCHES
 from foilstudy.solve.equilibrium.newton import NewtonOptions, NewtonResult
@@ -69,11 +70,9 @@ class HeldSheet:
         self.ring_force, self._at = float(np.linalg.norm(np.stack(rings))), q.copy()
         return float(energies.sum()), self.unknowns(self._force)
 
-    def hessian(self, q: np.ndarray) -> sparse.csr_matrix:
+    def hessian(self, q: np.ndarray) -> sparse.csr_matrix | SymmetricBlocks:
         """Tangent stiffness of the free control points, N/m."""
-        owned = RING_ROWS * 3 * self._problem.patch.columns
-        matrix = self._problem.tangent(self.points(q))
-        return matrix[owned:-owned, owned:-owned].tocsr()
+        return self._problem.held_tangent(self.points(q))
 
     def ring_force_at(self, q: np.ndarray) -> float:
         """Norm of the force on the rings, N: the scale of residuals."""
