@@ -137,6 +137,20 @@ def test_check_of_the_published_study_says_what_will_be_computed(capsys):
     assert "8 free cores" in text
 
 
+def test_check_says_what_the_accuracy_decided_and_what_overrules_it(tmp_path, capsys):
+    config = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
+    path = tmp_path / "quick.yaml"
+    words = {"accuracy": "quick", "relaxation": {"ramp_steps": 1500}}
+    path.write_text(yaml.safe_dump(config | words), encoding="utf-8")
+    text = spoken(capsys, "check", path)
+    assert "accuracy   quick, overruled by relaxation.ramp_steps: 1500\n" in text
+    assert text.count("25 % energy error") == 3
+    assert "1500 steps of ramp" in text and "rational_krylov to 0.01," in text
+    text = spoken(capsys, "check", ROOT / "config/tiny.yaml")
+    assert "standard, overruled by mesh.element_size_mm: 12, relaxation.ramp_steps: 400" in text
+    assert text.count("12 mm  as given") == 2
+
+
 def test_check_counts_the_jobs_that_snakemake_plans(tmp_path):
     study = changed(export={"formats": ["npz"]}, stiffness={"relaxed_refinements": 1})
     for config in (TINY, study):

@@ -8,7 +8,9 @@ import sys
 from pathlib import Path
 
 from foilstudy.base.manifest import MANIFEST
+from foilstudy.base.numerals import duration
 from foilstudy.config import ConfigError, load_merged
+from foilstudy.config.chosen import choices
 from foilstudy.config.slips import likely_slips, unresolved
 from foilstudy.present.figures import FIGURES
 from foilstudy.present.files import StudyFiles
@@ -176,7 +178,14 @@ def warn_of_slips():
         logger.warning(sentence)
 
 
+def tell_choices():
+    """Say what the accuracy made of the study, and what all of it costs."""
+    cost = f"about {duration(COST.processor_seconds, 2)} of processor time for the whole study"
+    logger.info("\n".join([*choices(STUDY), f"  {cost}"]))
+
+
 onstart:
+    tell_choices()
     warn_of_slips()
     claim_results()
     start_worker()

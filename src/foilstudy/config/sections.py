@@ -24,6 +24,8 @@ from foilstudy.model.materials import MATERIALS
 from foilstudy.model.shell.material import LAWS
 from foilstudy.solve.choices import DAMPINGS, MASSES, PATHS, SEARCHES
 
+from .accuracy import ACCURACIES, STANDARD
+
 CORRELATION_LENGTH_DEFAULT_MM = 15.0
 TEXT_MAX = 200
 # Any characters of any language, and several lines, but none that no file or terminal can show.
@@ -45,6 +47,12 @@ def choice_of(registry: Registry) -> Any:
 def registry_field(registry: Registry, default: str, what: str = "") -> Any:
     """Field with the names of a registry for values, described by its words."""
     return unit_field("choice", f"{what}{registry.words}", default)
+
+
+def tier_words(path: str) -> str:
+    """What the tiers make of a key, for its description."""
+    values = ", ".join(f"{tier.values[path]:g} ({name})" for name, tier in ACCURACIES.items())
+    return f"Decided by `accuracy`: {values}."
 
 
 class Section(BaseModel):
@@ -232,7 +240,11 @@ class Relaxation(Section):
     """Dynamic relaxation: ramp of the moving ring, then relaxation to equilibrium."""
 
     ramp_steps: int = unit_field(
-        "steps", "Steps in which the top ring closes the gap.", 2000, ge=10, le=10_000_000
+        "steps",
+        "Steps in which the top ring closes the gap. " + tier_words("relaxation.ramp_steps"),
+        STANDARD.ramp_steps,
+        ge=10,
+        le=10_000_000,
     )
     relaxation_steps_max: int = unit_field(
         "steps",
@@ -291,8 +303,9 @@ class Dynamics(Section):
     tolerance: float = unit_field(
         "1",
         "Largest relative error of the reduction in the shown band, by its own estimate; beyond "
-        "the frequency up to which the estimate meets it, the dynamic stiffness is left out.",
-        1e-3,
+        "the frequency up to which the estimate meets it, the dynamic stiffness is left out. "
+        + tier_words("dynamics.tolerance"),
+        STANDARD.reduction_tolerance,
         ge=1e-6,
         lt=1,
     )

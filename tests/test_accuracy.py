@@ -1,0 +1,182 @@
+"""One word for accuracy: what it decides, what wins over it, and what it leaves alone."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+import pytest
+import yaml
+
+from foilstudy import Accuracy, Foil, Mesh
+from foilstudy.base.errors import Refusal
+from foilstudy.config import ConfigError, StudyConfig, load_config, load_merged
+from foilstudy.config.accuracy import ACCURACIES, STANDARD, completed
+from foilstudy.config.chosen import accuracy_words, choices
+from foilstudy.model.mesh_size import expected_energy_error
+
+ROOT = Path(__file__).parents[1]
+SWEEP = {"thickness_um": [130, 500], "reference_height_mm": [150, 170], "realisations": 1}
+WORDS = list(ACCURACIES)
+
+
+def study(**sections):
+    return load_config({"sweep": SWEEP} | sections)
+
+
+def tasks_of(config):
+    """Everything that the jobs of a study are told, as they store it."""
+    for cell in config.cells():
+        yield config.crumple_task(cell).model_dump_json()
+        yield config.response_task(cell).model_dump_json()
+    yield config.cylinder_task()
+
+
+@pytest.mark.parametrize("word", WORDS)
+def test_the_values_of_a_tier_reach_the_tasks(word):
+    tier, config = ACCURACIES[word], study(accuracy=word)
+    for cell in config.cells():
+        crumple, response = config.crumple_task(cell), config.response_task(cell)
+        error = expected_energy_error(
+            crumple.mesh.element_size_mm * 1e-3, 0.1, cell.thickness_um * 1e-6
+        )
+        assert 0.97 * tier.energy_error < error <= tier.energy_error * (1 + 1e-9)
+        assert crumple.relaxation.ramp_steps == tier.ramp_steps
+        assert response.dynamics.tolerance == tier.reduction_tolerance
+
+
+def test_a_finer_tier_asks_for_more_of_everything():
+    quick, standard, fine = (ACCURACIES[word] for word in ("quick", "standard", "fine"))
+    for coarser, finer in ((quick, standard), (standard, fine)):
+        for path, value in coarser.values.items():
+            more = finer.values[path] > value
+            assert more if path == "relaxation.ramp_steps" else finer.values[path] < value
+
+
+def test_no_word_is_standard():
+    assert list(tasks_of(study())) == list(tasks_of(study(accuracy="standard")))
+    assert study().tier is STANDARD
+
+
+@pytest.mark.parametrize("word", WORDS)
+@pytest.mark.parametrize(
+    ("section", "key", "value"),
+    [
+        ("mesh", "energy_error_percent", 7.0),
+        ("relaxation", "ramp_steps", 1234),
+        ("dynamics", "tolerance", 3e-3),
+    ],
+)
+def test_a_given_key_wins_and_leaves_the_others_to_the_tier(word, section, key, value):
+    config = study(accuracy=word, **{section: {key: value}})
+    for path, of_tier in ACCURACIES[word].values.items():
+        name, _, other = path.partition(".")
+        found = getattr(getattr(config, name), other)
+        assert found == (value if (name, other) == (section, key) else of_tier)
+
+
+def test_a_size_of_the_elements_wins_over_the_error_of_the_energy():
+    config = study(accuracy="fine", mesh={"element_size_mm": 6})
+    assert (config.mesh.element_size_mm, config.mesh.energy_error_percent) == (6, None)
+    assert config.relaxation.ramp_steps == ACCURACIES["fine"].ramp_steps
+
+
+@pytest.mark.parametrize("word", WORDS)
+def test_the_word_itself_enters_no_task(word):
+    """From the word to the same values written out, and back, no record becomes stale."""
+    written = {}
+    for path, value in ACCURACIES[word].values.items():
+        section, _, key = path.partition(".")
+        written.setdefault(section, {})[key] = value
+    for other in WORDS:
+        assert list(tasks_of(study(accuracy=other, **written))) == list(
+            tasks_of(study(accuracy=word))
+        )
+
+
+@pytest.mark.parametrize("word", WORDS)
+def test_a_configuration_with_a_word_survives_a_round_trip(word):
+    config = study(accuracy=word)
+    assert load_config(yaml.safe_load(config.to_yaml())) == config
+    assert StudyConfig.model_validate_json(config.model_dump_json()) == config
+
+
+@pytest.mark.parametrize(("name", "digest"), [("tiny", "2427ce3140a2"), ("thesis", "a4027cf9cfd3")])
+def test_studies_with_numbers_of_their_own_keep_their_tasks(name, digest):
+    """As they were before there was the word: their records are those of hours."""
+    text = "".join(tasks_of(load_config(ROOT / f"config/{name}.yaml")))
+    assert hashlib.sha256(text.encode()).hexdigest()[:12] == digest
+
+
+def test_an_unknown_word_is_one_sentence_with_the_closest_known():
+    with pytest.raises(ConfigError) as caught:
+        study(accuracy="standrad")
+    assert str(caught.value) == (
+        "accuracy is the text 'standrad', which is no choice; did you mean standard? "
+        "use one of 'quick', 'standard' or 'fine'."
+    )
+    with pytest.raises(Refusal, match="'Quik' is no accuracy; did you mean quick?"):
+        Accuracy.named("Quik")
+
+
+@pytest.mark.parametrize("value", [None, 5, [], {}, {"quick": 1}, True])
+def test_what_is_no_word_is_the_only_problem(value):
+    with pytest.raises(ConfigError) as caught:
+        study(accuracy=value)
+    (problem,) = caught.value.problems
+    assert problem.startswith("accuracy is ") and "use one of 'quick'" in problem
+
+
+def test_the_word_is_taken_from_the_command_line():
+    config = load_merged([ROOT / "config/config.yaml"], ["accuracy=quick"])
+    assert config.tier is ACCURACIES["quick"]
+    with pytest.raises(ConfigError, match="did you mean fine"):
+        load_merged([ROOT / "config/config.yaml"], ["accuracy=fin"])
+
+
+def test_completing_leaves_the_content_as_it_was_given():
+    content = {"accuracy": "quick", "mesh": {"element_size_mm": "auto"}}
+    kept = yaml.safe_dump(content)
+    assert completed(content)["mesh"]["energy_error_percent"] == 25
+    assert yaml.safe_dump(content) == kept
+
+
+# --- what is said of it ---------------------------------------------------------------------------
+
+
+def said(**sections):
+    return accuracy_words(study(**sections).model_dump())
+
+
+def test_keys_that_overrule_the_word_are_named():
+    assert said(accuracy="quick") == "quick"
+    assert said(dynamics={"tolerance": STANDARD.reduction_tolerance}) == "standard"
+    # the same number as the error in per cent, but of another thing
+    assert said(mesh={"element_size_mm": 10}, relaxation={"ramp_steps": 50}) == (
+        "standard, overruled by mesh.element_size_mm: 10, relaxation.ramp_steps: 50"
+    )
+
+
+def test_choices_say_for_each_thickness_what_it_gets_and_why():
+    head, thin, thick = choices(study(accuracy="quick"))
+    assert head == "Accuracy quick"
+    assert thin.startswith("  130 um: elements of 2.6 mm (25 % energy error), 800 steps of ramp")
+    assert thick.startswith("  500 um: elements of 5.1 mm (25 % energy error), 800 steps of ramp")
+    assert thick.endswith("reduction to 0.01")
+    _, both = choices(study(mesh={"element_size_mm": 5}))
+    assert both.startswith("  130 to 500 um: elements of 5 mm (as given), 2000 steps of ramp")
+
+
+def test_a_size_that_the_tolerance_does_not_decide_says_what_does():
+    wide = study(mesh={"energy_error_percent": 90})
+    assert wide.sized_by(500) == "width of folds"
+    sheet = {"diameter_mm": 100, "gap_height_mm": 10}
+    sweep = {"thickness_um": [1000], "reference_height_mm": [12], "realisations": 1}
+    assert study(sheet=sheet, sweep=sweep).sized_by(1000) == "cylinder size"
+
+
+def test_in_python_the_word_sizes_the_mesh():
+    foil = Foil(0.2, 0.17, 0.13, 500e-6, "FEP")
+    sizes = [Mesh.resolving(foil, Accuracy.named(word).energy_error).element_size for word in WORDS]
+    assert sizes == [5.1e-3, 3.22e-3, 2.04e-3]
+    assert "quick" in repr(Accuracy.named("quick")) and len(repr(Accuracy.named("quick"))) < 200
