@@ -23,8 +23,10 @@ from foilstudy.config import (
 )
 from foilstudy.config._yaml import read_yaml
 from foilstudy.config.docs import reference_page, schema_text
+from foilstudy.config.sections import Stiffness
 from foilstudy.model.materials import MATERIALS
 from foilstudy.model.mesh_size import expected_energy_error
+from foilstudy.present.statistics.trust import ERROR_MAX
 
 CONFIG_FOLDER = Path(__file__).parents[1] / "config"
 CONFIG_FILES = sorted(CONFIG_FOLDER.glob("*.yaml"))
@@ -447,6 +449,40 @@ def test_the_limit_of_elements_counts_either_refinement(which):
     content = study(mesh={"element_size_mm": 1.25})
     assert "refined twice" in problem_of(content | {"stiffness": stiffness})
     load_config(content | {"stiffness": dict.fromkeys(stiffness, 0)})
+
+
+def test_a_demanded_error_refines_by_need_twice_at_most():
+    content = study(sweep={"thickness_um": [500]})
+    (cell, *_), demand = load_config(content).cells(), {"error_percent": 5}
+    plain = load_config(content).response_task(cell)
+    assert (plain.error_percent, plain.refinements) == (None, 1)
+    task = load_config(content | {"stiffness": demand}).response_task(cell)
+    assert (task.error_percent, task.refinements) == (5, 2)
+    once = load_config(content | {"stiffness": demand | {"refinements": 1}})
+    assert once.response_task(cell).refinements == 1
+    assert load_config(yaml.safe_load(once.to_yaml())) == once
+
+
+def test_a_demanded_error_without_a_refinement_is_refused():
+    text = problem_of(study(stiffness={"error_percent": 5, "refinements": 0}))
+    assert text.startswith("stiffness.error_percent is given") and "refinements: 1" in text
+
+
+def test_refinements_by_need_stop_where_elements_become_too_many():
+    """0.13 million elements can be halved once, not twice."""
+    content = study(mesh={"element_size_mm": 0.9}, stiffness={"error_percent": 5})
+    config = load_config(content)
+    assert {config.response_task(cell).refinements for cell in config.cells()} == {1}
+    fixed = content | {"stiffness": {"refinements": 2}}
+    assert "refined twice" in problem_of(fixed)
+    finer = content | {"mesh": {"element_size_mm": 0.4}}
+    assert "refined once" in problem_of(finer)
+
+
+def test_no_demand_is_larger_than_what_is_trusted():
+    field = Stiffness.model_fields["error_percent"]
+    (limit,) = (each.le for each in field.metadata if hasattr(each, "le"))
+    assert limit == 100 * ERROR_MAX
 
 
 def test_smooth_imperfection_that_the_mesh_cannot_follow():

@@ -419,6 +419,17 @@ def test_finest_mesh_is_not_called_extrapolated():
     assert "(twice refined, not extrapolated)" in mesh_sentence(mesh, old)
 
 
+def test_refinements_by_need_are_told_of_each_thickness():
+    cube = noisy_cube((50.0, 500.0), (170.0,), 3)
+    made = np.array([[2.0, 2.0, 2.0], [1.0, 2.0, 1.0]])[:, None]
+    cube["static_refinements"] = (("thickness", "overlength", "seed"), made)
+    by_need = {"mesh": {"element": "corner"}, "stiffness": {"error_percent": 5, "refinements": 2}}
+    text = (
+        "(refined until the stated error is at most 5 %, twice at 50 µm, once to twice at 500 µm)"
+    )
+    assert text in mesh_sentence(assess_mesh(cube), by_need)
+
+
 def test_stabilisation_share_measures_the_mesh_of_the_one_point_element_only():
     assert "resolve the ridges" in share_sentence({"mesh": {"element": "one_point"}})
     assert share_sentence({}) == share_sentence({"mesh": {"element": "one_point"}})

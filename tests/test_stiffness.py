@@ -11,6 +11,7 @@ from foilstudy.measure.stiffness import (
     condense,
     fixed_stiffness,
     free_stiffness,
+    transfer_stiffness,
 )
 from foilstudy.measure.stiffness.rings import interface_rigid_modes, rigid_motion
 from foilstudy.model.materials import Material
@@ -118,6 +119,19 @@ def test_prestress_free_tangent_gives_the_stress_free_stiffness(coarse_crumple, 
     stiffness = condense(InterfaceSystem.split(tangent, rings)).stiffness
     scale = np.abs(coarse_static.stiffness).max()
     np.testing.assert_allclose(stiffness, coarse_static.stiffness, rtol=0, atol=1e-10 * scale)
+
+
+@pytest.mark.parametrize("height", [0.17, 0.03])
+def test_three_loads_give_the_stiffness_of_all_twelve(height):
+    """Also where one ring is within the reach of the other."""
+    sheet = cylinder(height / 3 if height < 0.1 else 20e-3, height=height)
+    expected = fixed_stiffness(condensed(sheet))
+    np.testing.assert_allclose(transfer_stiffness(sheet), expected, rtol=1e-9)
+
+
+def test_transfer_stiffness_of_a_crumple(coarse_crumple, coarse_static):
+    expected = fixed_stiffness(coarse_static.stiffness)
+    np.testing.assert_allclose(transfer_stiffness(coarse_crumple.stress_free), expected, rtol=1e-9)
 
 
 def test_fixed_and_free_stiffness_of_a_known_matrix():

@@ -80,10 +80,14 @@ def _resolved(study: StudyConfig) -> Iterator[tuple[str, str]]:
         f"most {relaxation.relaxation_steps_max} after it, to a residual of "
         f"{relaxation.residual_tolerance:g}",
     )
+    stiffness = study.stiffness
+    demand = (
+        "" if stiffness.error_percent is None else f"to {stiffness.error_percent:g} %, at most "
+    )
     yield (
         "stiffness",
-        f"shape refined {times(study.stiffness.refinements)}, equilibrium refined "
-        f"{times(study.stiffness.relaxed_refinements)}",
+        f"shape refined {demand}{times(stiffness.refinements)}, equilibrium refined "
+        f"{times(stiffness.relaxed_refinements)}",
     )
     yield (
         "dynamics",

@@ -124,7 +124,7 @@ class MeshUse:
     heights_mm, thicknesses_um : tuple of float
         Rising.
     refinements : int
-        Of the stiffness.
+        Of the stiffness, that are made in any case.
     correlation_length_mm : float or None
         Of the imperfection.
     """
@@ -176,6 +176,12 @@ def _size_problems(use: MeshUse, size: float, which: str) -> Iterator[str]:
             f"the longest cylinder, refined {times(use.refinements)} (at most "
             f"{ELEMENTS_MAX:g}); {remedy}."
         )
+
+
+def refinements_that_fit(size_mm: float, area_mm2: float, most: int) -> int:
+    """How often elements can be halved on a sheet, at most `most` times."""
+    finest = math.sqrt(area_mm2 / ELEMENTS_MAX)
+    return max(0, min(most, math.floor(math.log2(size_mm / finest))))
 
 
 def _smoothing_problems(use: MeshUse, size: float) -> Iterator[str]:

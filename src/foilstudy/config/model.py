@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -14,7 +15,7 @@ from foilstudy.base.errors import ConfigError
 from .accuracy import ACCURACIES, STANDARD, Accuracy, completed
 from .export import Export
 from .isolation import Isolation
-from .mesh import Mesh, MeshUse, mesh_problems
+from .mesh import Mesh, MeshUse, mesh_problems, refinements_that_fit
 from .sections import (
     HEIGHT_MAX_MM,
     Dynamics,
@@ -199,11 +200,14 @@ class StudyConfig(Section):
             )
 
     def _mesh_use(self) -> MeshUse:
+        stiffness = self.stiffness
+        by_need = stiffness.error_percent is not None
+        refinements = min(1, stiffness.refinements) if by_need else stiffness.refinements
         return MeshUse(
             self.sheet.diameter_mm,
             self.reference_heights_mm,
             self.thicknesses_um,
-            max(self.stiffness.refinements, self.stiffness.relaxed_refinements),
+            max(refinements, stiffness.relaxed_refinements),
             self.imperfection.correlation_length_mm,
         )
 
@@ -312,12 +316,21 @@ class StudyConfig(Section):
         return ResponseTask(
             sheet=self.sheet,
             material=self.material,
-            refinements=self.stiffness.refinements,
+            error_percent=self.stiffness.error_percent,
+            refinements=self._refinements_of(cell),
             dynamics=self.dynamics,
             thickness_um=cell.thickness_um,
             reference_height_mm=cell.reference_height_mm,
             seed=cell.seed,
         )
+
+    def _refinements_of(self, cell: Cell) -> int:
+        """Refinements of a shape; where they are made by need, as many as its mesh can carry."""
+        if self.stiffness.error_percent is None:
+            return self.stiffness.refinements
+        area = math.pi * self.sheet.diameter_mm * cell.reference_height_mm
+        size = self.mesh_of(cell.thickness_um).element_size_mm
+        return refinements_that_fit(size, area, self.stiffness.refinements)
 
     def refine_task(self, cell: Cell) -> RefineTask:
         """Everything, beside the crumpled shape, that decides what refining makes of it."""

@@ -56,5 +56,6 @@ class RefineTask(_Task):
 class ResponseTask(_Task):
     """Static and dynamic stiffness of one crumpled realisation."""
 
+    error_percent: float | None = None
     refinements: int = Field(ge=0)
     dynamics: Dynamics

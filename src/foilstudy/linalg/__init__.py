@@ -1,5 +1,7 @@
 """Sparse symmetric factorisation and eigenpairs behind one face."""
 
+from foilstudy.linalg.blocks import BlockPattern, DefiniteBlocks
+from foilstudy.linalg.dissection import dissection
 from foilstudy.linalg.eigenpairs import (
     MODES_MAX,
     Modes,
@@ -15,11 +17,14 @@ from foilstudy.linalg.krylov import BlockKrylov, mass_orthonormal
 __all__ = [
     "MODES_MAX",
     "BlockKrylov",
+    "BlockPattern",
+    "DefiniteBlocks",
     "Factorisation",
     "Modes",
     "SolveError",
     "TooManyModes",
     "backend",
+    "dissection",
     "factorise",
     "lowest_modes",
     "mass_orthonormal",

@@ -13,6 +13,7 @@ import numpy as np
 import scipy.sparse as sparse
 
 from foilstudy.linalg import pardiso
+from foilstudy.linalg.blocks import DefiniteBlocks
 from foilstudy.linalg.errors import SolveError
 from foilstudy.linalg.pardiso import PardisoFactorisation
 from foilstudy.linalg.superlu import SuperLUFactorisation
@@ -41,13 +42,16 @@ counts as singular; times 1e-16 it is the error of a solution. Sheets between ri
 square of element size over thickness, 1e4 in the published case; sheets without rings 9e13."""
 
 
-def factorise(matrix: sparse.csr_matrix, residual_tolerance: float = 1e-8) -> Factorisation:
+def factorise(
+    matrix: sparse.csr_matrix | DefiniteBlocks, residual_tolerance: float = 1e-8
+) -> Factorisation:
     """Factor a symmetric matrix and check it on one right-hand side.
 
     Parameters
     ----------
-    matrix : csr_matrix
-        Real or complex symmetric (not Hermitian), both triangles stored.
+    matrix : csr_matrix or DefiniteBlocks
+        Real or complex symmetric (not Hermitian), both triangles stored; or blocks of a positive
+        definite one, which take half the time.
     residual_tolerance : float
         Largest accepted relative residual of the check, |A x - b| / (|A| |x|), scaled to a unit
         diagonal: unknowns may have units of their own, such as m and rad.
@@ -74,10 +78,10 @@ def factorise(matrix: sparse.csr_matrix, residual_tolerance: float = 1e-8) -> Fa
     return factor
 
 
-def _sizes(matrix: sparse.csr_matrix) -> np.ndarray:
+def _sizes(matrix: sparse.csr_matrix | DefiniteBlocks) -> np.ndarray:
     """Square roots of the diagonal; of the largest entry of a row where that is zero."""
     sizes = np.abs(matrix.diagonal())
-    if not sizes.all():
+    if not sizes.all():  # of no definite matrix
         largest = abs(matrix).max(axis=1).toarray().ravel()
         sizes = np.where(sizes > 0, sizes, np.where(largest > 0, largest, 1.0))
     return np.sqrt(sizes)

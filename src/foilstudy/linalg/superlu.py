@@ -6,6 +6,7 @@ import numpy as np
 import scipy.sparse as sparse
 from scipy.sparse.linalg import splu
 
+from foilstudy.linalg.blocks import DefiniteBlocks
 from foilstudy.linalg.errors import SolveError, refuse_complex, refuse_not_finite
 
 
@@ -15,7 +16,9 @@ class SuperLUFactorisation:
     Of a real or a complex symmetric matrix; the latter has no inertia.
     """
 
-    def __init__(self, matrix: sparse.csr_matrix):
+    def __init__(self, matrix: sparse.csr_matrix | DefiniteBlocks):
+        definite = isinstance(matrix, DefiniteBlocks)
+        matrix = matrix.full() if definite else matrix
         refuse_not_finite(matrix.data, "the matrix")
         try:
             self._factor = splu(
@@ -30,6 +33,10 @@ class SuperLUFactorisation:
         self.negative_eigenvalues = None
         if not np.iscomplexobj(matrix):
             self.negative_eigenvalues = int(np.sum(self._factor.U.diagonal() < 0))
+        if definite and self.negative_eigenvalues:
+            raise SolveError(
+                f"the matrix is not positive definite: {self.negative_eigenvalues} pivots are not"
+            )
 
     def solve(self, rhs: np.ndarray) -> np.ndarray:
         """Solve for one or several right-hand sides."""

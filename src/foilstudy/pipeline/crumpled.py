@@ -19,7 +19,12 @@ from foilstudy.model.patch import Patch
 from foilstudy.model.shell.shell import Shell
 from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.pipeline.shape import Shape
-from foilstudy.pipeline.static import MeshLimit, mesh_limit_of, stress_free_stiffness
+from foilstudy.pipeline.static import (
+    MeshLimit,
+    mesh_limit_of,
+    mesh_limit_within,
+    stress_free_stiffness,
+)
 from foilstudy.pipeline.structures import stress_free_structure
 from foilstudy.pipeline.vibration import Vibration, vibration_of
 from foilstudy.solve.paths import Arrival
@@ -134,6 +139,12 @@ class Crumpled(Shape):
     def mesh_limit(self, refinements: int = 2, coarsest: np.ndarray | None = None) -> MeshLimit:
         """That stiffness at element size zero, see `foilstudy.pipeline.static.mesh_limit_of`."""
         return mesh_limit_of(self, refinements, coarsest)
+
+    def mesh_limit_within(
+        self, error: float, most: int = 2, coarsest: np.ndarray | None = None
+    ) -> MeshLimit:
+        """The same with a stated error, see `foilstudy.pipeline.static.mesh_limit_within`."""
+        return mesh_limit_within(self, error, most, coarsest)
 
     def prestressed_stiffness(self) -> np.ndarray:
         """Axial and radial stiffness with the stress left in, other motions held, shape (2,), N/m.

@@ -6,13 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from foilstudy.measure.stiffness import (
-    InterfaceSystem,
-    Rings,
-    condense,
-    fixed_stiffness,
-    mesh_limit,
-)
+from foilstudy.measure.stiffness import limit_by_need, mesh_limit, transfer_stiffness
 from foilstudy.model.shell.elements.sampled import STAGGERED
 from foilstudy.pipeline.shape import Shape
 
@@ -27,15 +21,25 @@ class MeshLimit:
         Axial and radial, and their estimated errors, N/m; NaN where nothing was refined.
     levels : tuple of ndarray
         On the meshes, from coarse to fine.
+    met : bool or None
+        Whether the demanded error was met; None where none was demanded.
     """
 
     stiffness: np.ndarray
     error: np.ndarray
     levels: tuple[np.ndarray, ...]
+    met: bool | None = None
 
     def __repr__(self) -> str:
         parts = (f"{v:.4g} ± {e:.2g}" for v, e in zip(self.stiffness, self.error, strict=True))
-        return f"<MeshLimit: axial, radial {', '.join(parts)} N/m on {len(self.levels)} meshes>"
+        unmet = "" if self.met in (True, None) else ", not as exact as demanded"
+        meshes = f"{len(self.levels)} meshes{unmet}"
+        return f"<MeshLimit: axial, radial {', '.join(parts)} N/m on {meshes}>"
+
+    @property
+    def refinements(self) -> int:
+        """How often the shape was refined."""
+        return len(self.levels) - 1
 
 
 def stress_free_stiffness(shape: Shape) -> np.ndarray:
@@ -46,9 +50,7 @@ def stress_free_stiffness(shape: Shape) -> np.ndarray:
     SolveError
         If it is singular.
     """
-    rings = Rings.of(shape.patch, shape.points)
-    matrix = shape.relieved().tangent()
-    return fixed_stiffness(condense(InterfaceSystem.split(matrix, rings)).stiffness)
+    return transfer_stiffness(shape.relieved())
 
 
 def mesh_limit_of(shape: Shape, refinements: int, coarsest: np.ndarray | None = None) -> MeshLimit:
@@ -73,7 +75,49 @@ def mesh_limit_of(shape: Shape, refinements: int, coarsest: np.ndarray | None = 
         fine = fine.refined()
         levels.append(stress_free_stiffness(fine))
         if level == 0:
-            staggered = stress_free_stiffness(replace(fine, element=STAGGERED))
+            staggered = _staggered(fine)
     if len(levels) == 1:
         return MeshLimit(np.full(2, np.nan), np.full(2, np.nan), tuple(levels))
     return MeshLimit(*mesh_limit(levels, staggered), tuple(levels))
+
+
+def mesh_limit_within(
+    shape: Shape, error: float, most: int, coarsest: np.ndarray | None = None
+) -> MeshLimit:
+    """Refine the same shape until its stated error is small enough, and no further.
+
+    The second element is asked on the second mesh, before a third one is made.
+
+    Parameters
+    ----------
+    shape : Shape
+    error : float
+        Largest stated error of both directions, a share of the value.
+    most : int
+        How often the elements are halved at most, 1 or more.
+    coarsest
+        As in `mesh_limit_of`.
+
+    Raises
+    ------
+    SolveError
+        If a stiffness is singular.
+    """
+    foil, patch = shape.foil, shape.patch
+    size = max(patch.size_around, patch.size_along)
+    slenderness = size / np.sqrt(foil.diameter / 2 * foil.thickness)
+    levels = [stress_free_stiffness(shape) if coarsest is None else coarsest]
+    fine, staggered = shape, None
+    for _ in range(most):
+        fine = fine.refined()
+        levels.append(stress_free_stiffness(fine))
+        if staggered is None:
+            staggered = _staggered(fine)
+        limit, stated = limit_by_need(levels, staggered, slenderness)
+        if stated <= error:
+            break
+    return MeshLimit(limit, stated * np.abs(limit), tuple(levels), stated <= error)
+
+
+def _staggered(shape: Shape) -> np.ndarray:
+    return stress_free_stiffness(replace(shape, element=STAGGERED))

@@ -2,9 +2,10 @@
 
 from foilstudy.measure.stiffness.condensation import InterfaceSystem, StaticCondensation, condense
 from foilstudy.measure.stiffness.directional import fixed_stiffness, free_stiffness
-from foilstudy.measure.stiffness.mesh_error import mesh_limit
+from foilstudy.measure.stiffness.mesh_error import limit_by_need, mesh_limit
 from foilstudy.measure.stiffness.prestressed import prestressed_stiffness
 from foilstudy.measure.stiffness.rings import DOF_NAMES, Rings
+from foilstudy.measure.stiffness.transfer import transfer_stiffness
 
 __all__ = [
     "DOF_NAMES",
@@ -14,6 +15,8 @@ __all__ = [
     "condense",
     "fixed_stiffness",
     "free_stiffness",
+    "limit_by_need",
     "mesh_limit",
     "prestressed_stiffness",
+    "transfer_stiffness",
 ]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sparse
 
-from foilstudy.linalg import Factorisation, SolveError, factorise
+from foilstudy.linalg import DefiniteBlocks, Factorisation, SolveError, factorise
 from foilstudy.measure.stiffness.rings import Rings
 
 
@@ -56,6 +56,23 @@ class StaticCondensation:
         return f"<StaticCondensation: {len(self.constraint_modes)} interior unknowns>"
 
 
+def factorise_held(interior: sparse.csr_matrix | DefiniteBlocks) -> Factorisation:
+    """Factor the stiffness with held rings.
+
+    Raises
+    ------
+    SolveError
+        If it is singular to working precision.
+    """
+    try:
+        return factorise(interior)
+    except SolveError as error:
+        raise SolveError(
+            "the stiffness with held rings is singular to working precision, as that of a foil too "
+            f"thin for its mesh; use a finer mesh or a thicker foil ({error})"
+        ) from error
+
+
 def condense(system: InterfaceSystem) -> StaticCondensation:
     """S = K_bb - K_bi K_ii^-1 K_ib.
 
@@ -64,13 +81,7 @@ def condense(system: InterfaceSystem) -> StaticCondensation:
     SolveError
         If the interior stiffness is singular to working precision.
     """
-    try:
-        factor = factorise(system.interior)
-    except SolveError as error:
-        raise SolveError(
-            "the stiffness with held rings is singular to working precision, as that of a foil too "
-            f"thin for its mesh; use a finer mesh or a thicker foil ({error})"
-        ) from error
+    factor = factorise_held(system.interior)
     modes = -factor.solve(system.coupling)
     stiffness = system.interface + system.coupling.T @ modes
     return StaticCondensation(0.5 * (stiffness + stiffness.T), modes, factor)

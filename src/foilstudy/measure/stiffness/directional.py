@@ -17,8 +17,12 @@ def fixed_stiffness(interface_stiffness: np.ndarray) -> np.ndarray:
     ndarray, shape (2,)
         Axial and radial, N/m; positive when the force resists.
     """
-    transfer = -np.diag(interface_stiffness[6:, :6])
-    return np.array([transfer[list(MOTIONS[d])].mean() for d in DIRECTIONS])
+    return by_direction(-np.diag(interface_stiffness[6:, :6]))
+
+
+def by_direction(translations: np.ndarray) -> np.ndarray:
+    """Axial and radial, from numbers of the translations along x, y and z."""
+    return np.array([translations[list(MOTIONS[d])].mean() for d in DIRECTIONS])
 
 
 def free_stiffness(interface_stiffness: np.ndarray) -> np.ndarray:

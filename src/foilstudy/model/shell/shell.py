@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sparse
@@ -10,7 +11,7 @@ import scipy.sparse as sparse
 from foilstudy.model.materials import Material
 from foilstudy.model.patch import Patch
 from foilstudy.model.shell.elements.corner import Corner
-from foilstudy.model.shell.elements.protocol import Element
+from foilstudy.model.shell.elements.protocol import Element, ElementKernel
 from foilstudy.model.shell.material.elastic import Elastic
 from foilstudy.model.shell.section import Section
 from foilstudy.model.shell.tangent import block_matrix
@@ -50,7 +51,11 @@ class Shell:
     def __init__(self, section: Section, element: Element | None = None):
         self.section = section
         self.element = Corner() if element is None else element
-        self._kernel = self.element.kernel(section)
+
+    @cached_property
+    def _kernel(self) -> ElementKernel:
+        """Made when it is needed: what a shell is relieved from is often not asked anything."""
+        return self.element.kernel(self.section)
 
     def __repr__(self) -> str:
         return f"<Shell: {self.section}, {self.element.name}>"
@@ -128,7 +133,11 @@ class Shell:
         ValueError
             If there are fewer than five control points around.
         """
-        return block_matrix(self.patch, self._kernel.tangent_blocks(points))
+        return block_matrix(self.patch, self.tangent_blocks(points))
+
+    def tangent_blocks(self, points: np.ndarray | None = None) -> np.ndarray:
+        """The same by control point and neighbour, shape (rows, columns, 5, 5, 3, 3)."""
+        return self._kernel.tangent_blocks(points)
 
     def energies(self, points: np.ndarray) -> Energies:
         """Strain energies at the given shape."""

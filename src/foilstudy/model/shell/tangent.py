@@ -14,21 +14,35 @@ from foilstudy.model.patch import Patch
 _MASS = np.array([[6.0, 13.0, 1.0], [13.0, 54.0, 13.0], [1.0, 13.0, 6.0]]) / 120.0
 """Mass of one quadratic uniform B-spline element per unit of length."""
 
-_REACH = 5
-"""Control points along one direction that share an element with a given one."""
+REACH = 2
+"""To how many control points on either side one is coupled by the elements that they share."""
+_WIDTH = 2 * REACH + 1
 
 
-def _sparsity(patch: Patch):
-    """Row starts, column indices and the matching selection of stencil entries."""
-    if patch.periodic and patch.columns < _REACH:
-        raise ValueError(f"a patch needs at least {_REACH} elements around, not {patch.columns}")
+def sparsity(patch: Patch) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Where the blocks of an element kernel stand in a matrix.
+
+    Returns
+    -------
+    starts, columns : ndarray of int
+        Of the control points in the columns, and these: not rising across the seam.
+    valid : ndarray of bool, shape (rows, columns, 5, 5)
+        Blocks that stand in the matrix, in its order.
+
+    Raises
+    ------
+    ValueError
+        If there are fewer than five control points around.
+    """
+    if patch.periodic and patch.columns < _WIDTH:
+        raise ValueError(f"a patch needs at least {_WIDTH} elements around, not {patch.columns}")
     rows, columns = patch.rows, patch.columns
     row = np.arange(rows)[:, None, None, None]
     column = np.arange(columns)[None, :, None, None]
-    reach = np.arange(_REACH) - 2
+    reach = np.arange(_WIDTH) - REACH
     other_row = row + reach[None, None, :, None]
     other_column = column + reach[None, None, None, :]
-    shape = (rows, columns, _REACH, _REACH)
+    shape = (rows, columns, _WIDTH, _WIDTH)
     valid = (other_row >= 0) & (other_row < rows)
     if not patch.periodic:
         valid = valid & (other_column >= 0) & (other_column < columns)
@@ -52,7 +66,7 @@ def block_matrix(patch: Patch, blocks: np.ndarray) -> sparse.csr_matrix:
     ValueError
         If there are fewer than five control points around.
     """
-    starts, index, valid = _sparsity(patch)
+    starts, index, valid = sparsity(patch)
     size = 3 * patch.rows * patch.columns
     matrix = sparse.bsr_matrix((blocks[valid], index, starts), shape=(size, size)).tocsr()
     matrix.sort_indices()

@@ -35,11 +35,14 @@ class MeshErrors:
         By direction, then thickness [um]: estimated error of the mesh limit over the limit.
     stabilisation_share
         By thickness [um]: stabilisation energy over the whole internal energy.
+    refinements
+        By thickness [um]: of the shapes, where their number is recorded.
     """
 
     change: dict[str, dict[float, Spread]]
     stated: dict[str, dict[float, Spread]]
     stabilisation_share: dict[float, Spread]
+    refinements: dict[float, Spread]
 
     def overall_change(self, direction: str) -> Spread | None:
         """Range of `change` over all thicknesses."""
@@ -61,11 +64,14 @@ def assess_mesh(cube: xr.Dataset) -> MeshErrors:
     internal = cube["membrane_energy"] + cube["bending_energy"] + cube["stabilisation_energy"]
     share = by_thickness(cube["stabilisation_energy"] / internal)
     if "static_stiffness_converged" not in cube:
-        return MeshErrors({}, {}, share)
+        return MeshErrors({}, {}, share, {})
     change = cube["static_stiffness_converged"] / cube["static_stiffness"] - 1.0
     # Without a refinement there is no error estimate, and both stiffnesses are the same one.
     change = change.where(np.isfinite(cube["static_stiffness_mesh_error"]))
-    return MeshErrors(by_direction(change), by_direction(relative_mesh_error(cube)), share)
+    stated = by_direction(relative_mesh_error(cube))
+    # not recorded before there was a demand on the error
+    made = by_thickness(cube["static_refinements"]) if "static_refinements" in cube else {}
+    return MeshErrors(by_direction(change), stated, share, made)
 
 
 def element_kind(config: Mapping) -> str:
@@ -82,7 +88,7 @@ def mesh_sentence(mesh: MeshErrors, config: Mapping) -> str:
     ]
     if not parts:
         return "The mesh error of the stiffness was not measured."
-    text = f"In the mesh limit ({_how(config)}) {' and '.join(parts)} for the same shapes"
+    text = f"In the mesh limit ({_how(mesh, config)}) {' and '.join(parts)} for the same shapes"
     thickness = mesh.most_dependent_thickness_um
     return f"{text}, most at {nominal(thickness)} µm." if thickness else f"{text}."
 
@@ -121,9 +127,18 @@ def _extent(change: Spread) -> str:
     return f"{percent(-change.lowest)} lower to {percent(change.highest)} higher"
 
 
-def _how(config: Mapping) -> str:
-    refinements = config.get("stiffness", {}).get("refinements", 1)
+def _how(mesh: MeshErrors, config: Mapping) -> str:
+    section = config.get("stiffness", {})
+    refinements = section.get("refinements", 1)
+    if demand := section.get("error_percent"):
+        made = ", ".join(f"{_times(s)} at {nominal(t)} µm" for t, s in mesh.refinements.items())
+        return f"refined until the stated error is at most {demand:g} %, {made}"
     # Before there was a choice of elements the finest mesh stood for the limit.
     if refinements < 2 or "element" not in config.get("mesh", {}):
         return f"{times(refinements)} refined, not extrapolated"
     return f"{times(refinements)} refined, extrapolated to element size zero where the steps shrink"
+
+
+def _times(refinements: Spread) -> str:
+    ends = dict.fromkeys((int(refinements.lowest), int(refinements.highest)))
+    return " to ".join(times(end) for end in ends)

@@ -59,6 +59,7 @@ QUANTITIES: dict[str, Declared] = {
     "static_stiffness_mesh_error": Declared(
         "N/m", "estimated mesh error of static_stiffness_converged", _DIRECTION
     ),
+    "static_refinements": Declared("1", "refinements of the shape that these took"),
     "prestressed_stiffness": Declared(
         "N/m", "static stiffness at the stressed equilibrium, other motions held", _DIRECTION
     ),

@@ -100,21 +100,25 @@ def _summary(values: dict) -> str:
 def _measured(task: ResponseTask, crumpled: Crumpled) -> Values:
     with measured() as static:
         structure = stress_free_structure(crumpled)
-        values = _static(crumpled, structure, task.refinements)
+        values = _static(crumpled, structure, task)
     with measured() as dynamic:
         values |= _dynamic(structure, dynamics_of(task.dynamics), crumpled.patch)
     return values | {"seconds_static": static.seconds, "seconds_dynamic": dynamic.seconds}
 
 
-def _static(crumpled: Crumpled, structure: Structure, refinements: int) -> dict[str, np.ndarray]:
+def _static(crumpled: Crumpled, structure: Structure, task: ResponseTask) -> Values:
     interface = structure.static.stiffness
     plain = fixed_stiffness(interface)
-    limit = crumpled.mesh_limit(refinements, plain)
+    if task.error_percent is None:
+        limit = crumpled.mesh_limit(task.refinements, plain)
+    else:
+        limit = crumpled.mesh_limit_within(task.error_percent / 100, task.refinements, plain)
     return {
         "static_stiffness": plain,
         "static_stiffness_free": free_stiffness(interface),
         "static_stiffness_converged": limit.stiffness,
         "static_stiffness_mesh_error": limit.error,
+        "static_refinements": float(limit.refinements),
         "interface_stiffness": interface,
         "prestressed_stiffness": _prestressed(crumpled),
     }
