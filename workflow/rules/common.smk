@@ -47,7 +47,7 @@ BENCHMARKS = f"{RESULTS}/benchmarks"
 CELLS = STUDY.cells()
 COST = expected(STUDY)
 MEMORY_MB = {
-    (each.thickness_um, each.reference_height_mm): each.peak_memory_mb
+    (each.thickness_um, each.reference_height_mm): each.most_memory_mb
     for each in COST.configurations
 }
 PRESENTED = shown(StudyFiles(Path(RESULTS, "cube.nc")))

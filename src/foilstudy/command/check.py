@@ -150,3 +150,8 @@ def _summary(cost: Expected, cores: int) -> Iterator[str]:
         f"{cost.total_memory_mb(cores) / 1000:.1f} GB for all on {plural(cores, 'core')}, within "
         f"a factor of {MEMORY_SPREAD:g}."
     )
+    if cost.most_memory_mb > cost.peak_memory_mb:
+        yield (
+            f"Up to {cost.most_memory_mb / 1000:.1f} GB for a job whose shape needs more "
+            "refinements than expected."
+        )

@@ -18,7 +18,10 @@ __all__ = ["ACCURACIES", "AUTO", "SETTLED_BY", "STANDARD", "Accuracy", "complete
 
 AUTO = "auto"
 """Value of a key that leaves it to a tolerance."""
-SETTLED_BY: Mapping[str, str] = {"mesh.energy_error_percent": "mesh.element_size_mm"}
+SETTLED_BY: Mapping[str, str] = {
+    "mesh.energy_error_percent": "mesh.element_size_mm",
+    "stiffness.error_percent": "stiffness.refinements",
+}
 """Tolerances that nothing asks for where another key is given, in whose place they stand."""
 
 
@@ -37,6 +40,8 @@ class Accuracy:
     ramp_steps : int
         Steps in which the top ring closes the gap. In too few the foil lags behind the ring and
         crumples to another shape; thin foil wants more than thick foil.
+    stiffness_error_percent : float
+        Stated mesh error of the static stiffness, at which refining ends.
     reduction_tolerance : float
         Largest relative error of the reduced model in the shown band.
     """
@@ -45,6 +50,7 @@ class Accuracy:
     words: str
     energy_error_percent: float
     ramp_steps: int
+    stiffness_error_percent: float
     reduction_tolerance: float
 
     @classmethod
@@ -76,6 +82,7 @@ class Accuracy:
         return {
             "mesh.energy_error_percent": self.energy_error_percent,
             "relaxation.ramp_steps": self.ramp_steps,
+            "stiffness.error_percent": self.stiffness_error_percent,
             "dynamics.tolerance": self.reduction_tolerance,
         }
 
@@ -88,6 +95,7 @@ ACCURACIES: Mapping[str, Accuracy] = {
             words="a first look",
             energy_error_percent=25.0,
             ramp_steps=800,
+            stiffness_error_percent=10.0,
             reduction_tolerance=1e-2,
         ),
         Accuracy(
@@ -95,6 +103,7 @@ ACCURACIES: Mapping[str, Accuracy] = {
             words="what a law is fitted to",
             energy_error_percent=10.0,
             ramp_steps=2000,
+            stiffness_error_percent=2.0,
             reduction_tolerance=1e-3,
         ),
         Accuracy(
@@ -102,6 +111,7 @@ ACCURACIES: Mapping[str, Accuracy] = {
             words="to see what `standard` leaves out",
             energy_error_percent=4.0,
             ramp_steps=8000,
+            stiffness_error_percent=0.5,
             reduction_tolerance=1e-4,
         ),
     )

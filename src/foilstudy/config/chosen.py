@@ -6,8 +6,10 @@ from collections.abc import Iterator, Mapping
 from itertools import groupby
 from typing import Any
 
+from foilstudy.base.numerals import times
+
 from .accuracy import ACCURACIES, SETTLED_BY
-from .model import StudyConfig
+from .model import Cell, StudyConfig
 
 __all__ = ["accuracy_words", "choices"]
 
@@ -18,7 +20,7 @@ def accuracy_words(content: Mapping[str, Any]) -> str:
     Parameters
     ----------
     content : mapping
-        A validated configuration as plain data.
+        A validated configuration as plain data, such as a cube carries.
     """
     keys = list(_overruling(content))
     name = content["accuracy"]
@@ -28,7 +30,8 @@ def accuracy_words(content: Mapping[str, Any]) -> str:
 def choices(study: StudyConfig) -> list[str]:
     """A line for the tier, and one for each thickness, or for several that are treated alike."""
     lines = [f"Accuracy {accuracy_words(study.model_dump())}"]
-    chosen = ((_chosen(study, thickness), thickness) for thickness in study.thicknesses_um)
+    shortest = {cell.thickness_um: cell for cell in reversed(study.cells())}
+    chosen = ((_chosen(study, shortest[each]), each) for each in study.thicknesses_um)
     for words, alike in groupby(chosen, lambda pair: pair[0]):
         thicknesses = [thickness for _, thickness in alike]
         lines.append(f"  {_range(thicknesses)} um: {words}")
@@ -39,23 +42,28 @@ def _overruling(content: Mapping[str, Any]) -> Iterator[str]:
     """Keys with another value than the tier's; one given with the same value overrules nothing."""
     for path, value in ACCURACIES[content["accuracy"]].values.items():
         found = _value(content, path)
-        if found is None:
-            path = SETTLED_BY[path]
-            yield f"{path}: {_value(content, path):g}"
-        elif found != value:
+        if found is None:  # settled by another key, or not yet known to the release of a cube
+            path = SETTLED_BY.get(path, path)
+            found = _value(content, path)
+        elif found == value:
+            continue
+        if found is not None:
             yield f"{path}: {found:g}"
 
 
 def _value(content: Mapping[str, Any], path: str) -> float | None:
     section, _, key = path.partition(".")
-    return content[section].get(key)
+    return content.get(section, {}).get(key)
 
 
-def _chosen(study: StudyConfig, thickness_um: float) -> str:
-    size = study.mesh_of(thickness_um).element_size_mm
+def _chosen(study: StudyConfig, cell: Cell) -> str:
+    size, percent = study.mesh_of(cell.thickness_um).element_size_mm, study.stiffness.error_percent
+    demand = "" if percent is None else f"to {percent:g} %, at most "
+    refined = f"{demand}{times(study.response_task(cell).refinements)}"
     return (
-        f"elements of {size:g} mm ({study.sized_by(thickness_um)}), "
-        f"{study.relaxation.ramp_steps} steps of ramp, reduction to {study.dynamics.tolerance:g}"
+        f"elements of {size:g} mm ({study.sized_by(cell.thickness_um)}), "
+        f"{study.relaxation.ramp_steps} steps of ramp, shape refined {refined}, "
+        f"reduction to {study.dynamics.tolerance:g}"
     )
 
 

@@ -167,7 +167,8 @@ def _size_problems(use: MeshUse, size: float, which: str) -> Iterator[str]:
     if elements > ELEMENTS_MAX:
         coarser = size * math.sqrt(elements / ELEMENTS_MAX)
         remedy = (
-            "allow a larger mesh.energy_error_percent, refine less, or give a size"
+            "allow a larger mesh.energy_error_percent, as a coarser accuracy does, refine less, "
+            "or give a size"
             if which
             else f"use {coarser:.2g} mm or more, and check that the value is in mm"
         )

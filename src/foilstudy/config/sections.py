@@ -273,10 +273,6 @@ class Method(Section):
     stress_removal: choice_of(STRESS_REMOVALS) = registry_field(STRESS_REMOVALS, "reset")
 
 
-REFINEMENTS_BY_NEED = 2
-"""Refinements at most where an error is demanded and no number is given."""
-
-
 class Stiffness(Section):
     """Static stiffness between the end rings."""
 
@@ -284,7 +280,8 @@ class Stiffness(Section):
         "%",
         "Largest mesh error of the stress-free stiffness of the crumpled shape, axial and radial, "
         "by its own estimate: the shape is refined until that meets it and no further, "
-        "`refinements` times at most. If left out, it is refined `refinements` times.",
+        "`refinements` times at most. If that number is given and this is not, the shape is "
+        "refined so often. " + tier_words("stiffness.error_percent"),
         None,
         ge=0.01,
         le=20,
@@ -293,9 +290,8 @@ class Stiffness(Section):
         "1",
         "Exact refinements of the crumpled shape, each halving the elements, for the mesh error "
         "of the stress-free stiffness; with 2 it is extrapolated. With `error_percent` the most "
-        f"that are made ({REFINEMENTS_BY_NEED} if left out), fewer where elements would become too "
-        "many.",
-        1,
+        "that are made, fewer where elements would become too many.",
+        2,
         ge=0,
         le=3,
     )
@@ -307,13 +303,6 @@ class Stiffness(Section):
         ge=0,
         le=2,
     )
-
-    @model_validator(mode="before")
-    @classmethod
-    def _most_by_need(cls, data: Any) -> Any:
-        if isinstance(data, Mapping) and data.get("error_percent") is not None:
-            return {"refinements": REFINEMENTS_BY_NEED} | dict(data)
-        return data
 
     @model_validator(mode="after")
     def _something_to_state_an_error_by(self) -> Stiffness:

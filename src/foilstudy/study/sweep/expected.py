@@ -8,11 +8,14 @@ Time is a sum of power laws, each with its reason:
   the steps it is told to take;
 - a static stiffness costs a factorisation, on every mesh of the ladder: twice on the mesh of the
   crumple (stress-free and pre-stressed) and on the first refinement (corner and staggered element);
+- where an error of it is demanded, the ladder ends on the first mesh whose stated error is expected
+  to meet it, and that error is a power of the element size over sqrt(R t);
 - a reduction costs a factorisation and the projection on its coordinates, elements times their
   square. They grow with the modes in the band, in number proportional to its end, and with R/t.
 
 Memory is proportional to the elements of the finest mesh that is factorised, or to elements times
-coordinates of the reduction, if that is more.
+coordinates of the reduction, if that is more. A shape may need more refinements than expected: the
+most that a job may take is told beside it.
 
 `benchmarks/expected.py` fits the coefficients of `CostModel` to finished studies. They are those of
 the default element and the default reduction: of thin foil the one-point element takes fewer steps.
@@ -20,6 +23,7 @@ the default element and the default reduction: of thin foil the one-point elemen
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -58,6 +62,8 @@ class CostModel:
     settling: float = 0.0833  # seconds
     condensation: float = 0.033  # seconds of one static stiffness
     solve_exponent: float = 1.35  # of settling and static stiffness
+    stiffness_error: float = 0.171  # stated, a share, where elements are sqrt(R t) wide
+    stiffness_error_order: float = 1.51  # with the element size over sqrt(R t)
     projection: float = 0.0322  # seconds of a reduction to a hundred coordinates, growing squared
     relaxation_steps: float = 7700  # after the ramp
     slenderness_exponent: float = 0.63  # of these steps with R/t
@@ -86,6 +92,23 @@ class CostModel:
     def static_seconds(self, meshes: Sequence[int]) -> float:
         """Time of the static stiffness on a ladder of meshes, elements each, coarsest first."""
         return sum(map(self.solve_seconds, (*meshes, *meshes[:2])))  # the first ones twice
+
+    def refinements(self, width: float, error: float | None, most: int) -> int:
+        """Refinements of a shape whose elements are `width` times sqrt(R t) wide.
+
+        Parameters
+        ----------
+        width : float
+            On the mesh that was crumpled.
+        error : float or None
+            Demanded of the stiffness, a share; None where all refinements are made.
+        most : int
+            That may be made; the first is needed for any statement.
+        """
+        if error is None:
+            return most
+        wide_enough = (error / self.stiffness_error) ** (1 / self.stiffness_error_order)
+        return int(np.clip(np.ceil(np.log2(width / wide_enough)), min(1, most), most))
 
     def reduced_coordinates(self, slenderness: float, band_hz: float) -> float:
         """Coordinates of the reduced model of a foil of R/t, up to the end of the band."""
@@ -127,13 +150,13 @@ class ExpectedConfiguration:
     thickness_um, reference_height_mm : float
         As configured.
     elements : tuple of int
-        Of the mesh that is crumpled, and of each refinement of its shape.
+        Of the mesh that is crumpled, and of each expected refinement of its shape.
     steps : int
         Ramp and relaxation.
     seconds_of : mapping of str to float
         Processor time of the physics of its jobs, by their kind.
-    peak_memory_mb : float
-        Of the largest of its jobs.
+    peak_memory_mb, most_memory_mb : float
+        Of the largest of its jobs, and of that if a shape needs all refinements that it may have.
     """
 
     thickness_um: float
@@ -142,6 +165,7 @@ class ExpectedConfiguration:
     steps: int
     seconds_of: Mapping[str, float]
     peak_memory_mb: float
+    most_memory_mb: float
 
     @property
     def seconds(self) -> float:
@@ -176,6 +200,11 @@ class Expected:
     def peak_memory_mb(self) -> float:
         """Memory of the largest job."""
         return max(each.peak_memory_mb for each in self.configurations)
+
+    @property
+    def most_memory_mb(self) -> float:
+        """The same if its shape needs all refinements that it may have."""
+        return max(each.most_memory_mb for each in self.configurations)
 
     def wall_seconds(self, cores: int) -> float:
         """Time until the report is there, on so many free cores."""
@@ -220,7 +249,10 @@ def _configuration(study: StudyConfig, cell: Cell, model: CostModel) -> Expected
     patch, foil = patch_of(task), foil_of(task)
     elements = patch.elements_around * patch.elements_along
     slenderness = foil.diameter / 2 / foil.thickness
-    meshes = tuple(4**level * elements for level in range(study.stiffness.refinements + 1))
+    width = task.mesh.element_size_mm * 1e-3 / math.sqrt(foil.diameter / 2 * foil.thickness)
+    demand, most = study.stiffness.error_percent, study.response_task(cell).refinements
+    refinements = model.refinements(width, None if demand is None else demand / 100, most)
+    meshes = tuple(4**level * elements for level in range(refinements + 1))
     relaxed = [4**level * elements for level in range(1, study.stiffness.relaxed_refinements + 1)]
     relaxing = min(model.steps_after_ramp(slenderness), study.relaxation.relaxation_steps_max)
     steps = study.relaxation.ramp_steps + round(relaxing)
@@ -234,7 +266,10 @@ def _configuration(study: StudyConfig, cell: Cell, model: CostModel) -> Expected
         seconds["refine"] = sum(model.crumple_seconds(mesh, relaxing) for mesh in relaxed)
     if study.export.formats:
         seconds["export"] = model.solve_seconds(elements) + dynamic
-    memory = float(model.peak_memory_mb(max([*meshes, *relaxed]), elements, coordinates))
+    memory = [
+        float(model.peak_memory_mb(max([finest, *relaxed]), elements, coordinates))
+        for finest in (meshes[-1], 4**most * elements)
+    ]
     return ExpectedConfiguration(
-        cell.thickness_um, cell.reference_height_mm, meshes, steps, seconds, memory
+        cell.thickness_um, cell.reference_height_mm, meshes, steps, seconds, *memory
     )
