@@ -9,13 +9,15 @@ import numpy as np
 import pytest
 import yaml
 
-from foilstudy import Accuracy, Foil, Mesh, open_cube
+from foilstudy import Accuracy, Foil, Mesh
 from foilstudy.base.errors import Refusal
 from foilstudy.config import ConfigError, StudyConfig, load_config, load_merged
 from foilstudy.config.accuracy import ACCURACIES, STANDARD, completed
 from foilstudy.config.chosen import accuracy_words, choices
+from foilstudy.config.foils import patch_of
+from foilstudy.measure.stiffness import limit_by_need
 from foilstudy.model.mesh_size import expected_energy_error
-from foilstudy.study.sweep.expected import MEASURED, expected
+from foilstudy.study.sweep.expected import expected
 
 ROOT = Path(__file__).parents[1]
 SWEEP = {"thickness_um": [130, 500], "reference_height_mm": [150, 170], "realisations": 1}
@@ -203,27 +205,32 @@ def test_in_python_the_word_sizes_the_mesh():
 # --- what it costs --------------------------------------------------------------------------------
 
 
-def test_a_shape_is_expected_to_be_refined_until_its_error_is_small_enough():
-    model = MEASURED
-    assert [model.refinements(1.0, None, most) for most in range(4)] == [0, 1, 2, 3]
-    for width in (0.2, 0.45, 1.0, 2.2):
-        for error in (0.3, 0.1, 0.02, 0.005):
-            found = model.refinements(width, error, 20)
-            stated = model.stiffness_error * (width / 2.0**found) ** model.stiffness_error_order
-            assert found >= 1 and stated <= error
-            coarser = stated * 2**model.stiffness_error_order
-            assert found == 1 or coarser > error
-            assert model.refinements(width, error, 2) == min(found, 2)
+def refinements_expected(**sections):
+    return [len(each.elements) - 1 for each in expected(study(**sections)).configurations]
 
 
-def test_the_expected_error_is_that_of_the_published_study():
-    """Stated on its finest mesh, a quarter of the crumpled one; the median of each thickness."""
-    cube = open_cube(ROOT / "results/thesis/cube.nc")
-    stated = cube.static_stiffness_mesh_error / cube.static_stiffness_converged
-    largest = stated.max("direction").median(["seed", "overlength"])
-    width = 5 / np.sqrt(100 * cube.thickness * 1e-3) / 4
-    by_model = MEASURED.stiffness_error * width**MEASURED.stiffness_error_order
-    assert (abs(np.log(largest / by_model)) < np.log(1.35)).all()
+def test_a_shape_is_expected_to_be_refined_until_its_error_meets_the_demand():
+    """Of which the width of the elements decides, where all meshes agree otherwise."""
+    alike = np.array([1e4, 3e4])
+    mesh, sweep = {"element_size_mm": 4}, SWEEP | {"thickness_um": [250, 500]}
+    for percent in (10, 5, 2, 1, 0.3):
+        stiffness = {"error_percent": percent, "refinements": 3}
+        config = study(sweep=sweep, mesh=mesh, stiffness=stiffness)
+        for cell, each in zip(config.cells(), expected(config).configurations, strict=True):
+            patch = patch_of(config.crumple_task(cell))
+            size = max(patch.size_around, patch.size_along)
+            width = size / np.sqrt(0.1 * cell.thickness_um * 1e-6)
+            stated = [limit_by_need([alike] * (k + 1), alike, width)[1] for k in (1, 2, 3)]
+            met = [k for k, error in enumerate(stated, 1) if error <= percent / 100]
+            assert len(each.elements) - 1 == min(met, default=3)
+
+
+def test_no_more_refinements_are_expected_than_may_be_made():
+    demand, sweep = {"error_percent": 0.01}, SWEEP | {"thickness_um": [500]}
+    for most in (1, 2, 3):
+        stiffness = demand | {"refinements": most}
+        assert refinements_expected(sweep=sweep, stiffness=stiffness) == [most] * 2
+        assert refinements_expected(sweep=sweep, stiffness={"refinements": most}) == [most] * 2
 
 
 def test_a_finer_word_costs_more_and_memory_is_told_for_all_refinements():

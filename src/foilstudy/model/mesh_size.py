@@ -18,6 +18,9 @@ ERROR_COEFFICIENT = 0.48
 """Relative error of the strain energy by the default element over (h / sqrt(R t))^order: weighted
 least squares over the means of two or three seeds at 7, 5, 4, 2.5 and 1.25 mm, standard error
 0.07."""
+STIFFNESS_ERROR_COEFFICIENT = 0.38
+"""Relative error of the stiffness of a given folded shape, at most, over (h / sqrt(R t))^2, as
+measured (docs/method.md, section 6)."""
 SLENDERNESS_MAX = 1.0
 """Largest h / sqrt(R t) of that fit."""
 
@@ -30,6 +33,11 @@ def expected_energy_error(size: float, radius: float, thickness: float) -> float
 def energy_error_at(slenderness):
     """The same of the element size over sqrt(R t); a number or an array."""
     return ERROR_COEFFICIENT * slenderness**ERROR_ORDER
+
+
+def stiffness_error_at(slenderness: float) -> float:
+    """Relative error of the stiffness of a given shape, of the element size over sqrt(R t)."""
+    return STIFFNESS_ERROR_COEFFICIENT * slenderness**ERROR_ORDER
 
 
 def element_size_for(error: float, radius: float, thickness: float) -> float:

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from foilstudy.model.mesh_size import stiffness_error_at
+
 _QUARTER = 4.0
 """By how much halving the elements lowers an error of second order."""
 _SAFETY = 2.0
 """Stated error over estimated one."""
-_FOLDED = 0.38
-"""Error, a share, of elements sqrt(R t) wide: see `limit_by_need`."""
 
 
 def mesh_limit(
@@ -77,7 +77,7 @@ def limit_by_need(
         A share of either value.
     """
     halvings = len(levels) - 1
-    folded = _FOLDED * slenderness**2 / _QUARTER**halvings
+    folded = stiffness_error_at(slenderness / 2**halvings)
     gap = np.abs(staggered / levels[1] - 1) / _QUARTER ** (halvings - 1)
     signs = [folded, gap.max()]
     if halvings > 1:

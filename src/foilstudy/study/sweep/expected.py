@@ -8,8 +8,8 @@ Time is a sum of power laws, each with its reason:
   the steps it is told to take;
 - a static stiffness costs a factorisation, on every mesh of the ladder: twice on the mesh of the
   crumple (stress-free and pre-stressed) and on the first refinement (corner and staggered element);
-- where an error of it is demanded, the ladder ends on the first mesh whose stated error is expected
-  to meet it, and that error is a power of the element size over sqrt(R t);
+- where an error of it is demanded, the ladder ends on the first mesh that meets it, of which the
+  element size over sqrt(R t) says most (`foilstudy.model.mesh_size`);
 - a reduction costs a factorisation and the projection on its coordinates, elements times their
   square. They grow with the modes in the band, in number proportional to its end, and with R/t.
 
@@ -30,8 +30,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from foilstudy.base.numerals import number
-from foilstudy.config import Cell, StudyConfig
+from foilstudy.config import Cell, ResponseTask, StudyConfig
 from foilstudy.config.foils import foil_of, patch_of
+from foilstudy.model.mesh_size import stiffness_error_at
 
 __all__ = [
     "MEASURED",
@@ -62,8 +63,6 @@ class CostModel:
     settling: float = 0.0833  # seconds
     condensation: float = 0.033  # seconds of one static stiffness
     solve_exponent: float = 1.35  # of settling and static stiffness
-    stiffness_error: float = 0.171  # stated, a share, where elements are sqrt(R t) wide
-    stiffness_error_order: float = 1.51  # with the element size over sqrt(R t)
     projection: float = 0.0322  # seconds of a reduction to a hundred coordinates, growing squared
     relaxation_steps: float = 7700  # after the ramp
     slenderness_exponent: float = 0.63  # of these steps with R/t
@@ -92,23 +91,6 @@ class CostModel:
     def static_seconds(self, meshes: Sequence[int]) -> float:
         """Time of the static stiffness on a ladder of meshes, elements each, coarsest first."""
         return sum(map(self.solve_seconds, (*meshes, *meshes[:2])))  # the first ones twice
-
-    def refinements(self, width: float, error: float | None, most: int) -> int:
-        """Refinements of a shape whose elements are `width` times sqrt(R t) wide.
-
-        Parameters
-        ----------
-        width : float
-            On the mesh that was crumpled.
-        error : float or None
-            Demanded of the stiffness, a share; None where all refinements are made.
-        most : int
-            That may be made; the first is needed for any statement.
-        """
-        if error is None:
-            return most
-        wide_enough = (error / self.stiffness_error) ** (1 / self.stiffness_error_order)
-        return int(np.clip(np.ceil(np.log2(width / wide_enough)), min(1, most), most))
 
     def reduced_coordinates(self, slenderness: float, band_hz: float) -> float:
         """Coordinates of the reduced model of a foil of R/t, up to the end of the band."""
@@ -249,9 +231,9 @@ def _configuration(study: StudyConfig, cell: Cell, model: CostModel) -> Expected
     patch, foil = patch_of(task), foil_of(task)
     elements = patch.elements_around * patch.elements_along
     slenderness = foil.diameter / 2 / foil.thickness
-    width = task.mesh.element_size_mm * 1e-3 / math.sqrt(foil.diameter / 2 * foil.thickness)
-    demand, most = study.stiffness.error_percent, study.response_task(cell).refinements
-    refinements = model.refinements(width, None if demand is None else demand / 100, most)
+    width = max(patch.size_around, patch.size_along) / math.sqrt(foil.diameter / 2 * foil.thickness)
+    response = study.response_task(cell)
+    most, refinements = response.refinements, _refinements(response, width)
     meshes = tuple(4**level * elements for level in range(refinements + 1))
     relaxed = [4**level * elements for level in range(1, study.stiffness.relaxed_refinements + 1)]
     relaxing = min(model.steps_after_ramp(slenderness), study.relaxation.relaxation_steps_max)
@@ -273,3 +255,18 @@ def _configuration(study: StudyConfig, cell: Cell, model: CostModel) -> Expected
     return ExpectedConfiguration(
         cell.thickness_um, cell.reference_height_mm, meshes, steps, seconds, *memory
     )
+
+
+def _refinements(task: ResponseTask, width: float) -> int:
+    """Refinements of a shape crumpled on elements `width` times sqrt(R t) wide.
+
+    The first is needed for any statement; a shape whose steps do not shrink takes more.
+    """
+    if task.error_percent is None:
+        return task.refinements
+    enough = (
+        halvings
+        for halvings in range(1, task.refinements)
+        if stiffness_error_at(width / 2**halvings) <= task.error_percent / 100
+    )
+    return next(enough, task.refinements)
