@@ -201,7 +201,7 @@ def _coordinates_and_memory(case: tuple[Finished, Cell, float]) -> tuple[float, 
     study, cell, band_hz = case
     task = study.config.response_task(cell)
     dynamics = task.dynamics.model_copy(update={"shown_max_hz": band_hz})
-    task = task.model_copy(update={"refinements": 0, "dynamics": dynamics})
+    task = task.model_copy(update={"error_percent": None, "refinements": 0, "dynamics": dynamics})
     place = study.folder / "realisations" / cell.thickness_id / cell.overlength_id / "0"
     with tempfile.TemporaryDirectory() as folder:
         respond_job(task, place / "crumple.nc", Path(folder) / "response.nc")

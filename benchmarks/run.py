@@ -59,6 +59,7 @@ def task_study(height_mm: float, **relaxation):
             },
             "mesh": {"element_size_mm": 5},
             "relaxation": relaxation,
+            "stiffness": {"refinements": 1},
         }
     )
 

@@ -23,7 +23,7 @@ _COSTS = ("seconds_", "peak_memory")
 COMMON = {
     "mesh": {"element_size_mm": 10},
     "relaxation": {"ramp_steps": 1000},
-    "stiffness": {"relaxed_refinements": 1},
+    "stiffness": {"refinements": 1, "relaxed_refinements": 1},
     "dynamics": {"shown_max_hz": 200, "frequencies": 20, "eigenfrequencies": 5},
 }
 CELLS = {

@@ -224,8 +224,8 @@ def _structure() -> Iterator[tuple[str, str]]:
 def _values() -> Iterator[tuple[str, str]]:
     """Wrong values of every key, some of each kind."""
     turn = 0
-    for section, field in StudyConfig.model_fields.items():
-        for key, entry in field.annotation.model_fields.items():
+    for section, model in StudyConfig.sections().items():
+        for key, entry in model.model_fields.items():
             unit = entry.json_schema_extra["unit"]
             wrong = _wrong_values(unit, entry.annotation)
             for value in (wrong[turn % len(wrong)], wrong[(turn + 3) % len(wrong)]):

@@ -15,7 +15,7 @@ from test_workflow import TINY, changed, plan
 
 from foilstudy.base.cube import open_cube
 from foilstudy.command import main
-from foilstudy.config import load_config
+from foilstudy.config import load_config, load_merged
 from foilstudy.export.formats import FORMATS
 from foilstudy.study.sweep.crumple import crumple_job
 from foilstudy.study.sweep.expected import MEMORY_SPREAD, SPREAD, expected
@@ -137,6 +137,20 @@ def test_check_of_the_published_study_says_what_will_be_computed(capsys):
     assert "8 free cores" in text
 
 
+def test_check_says_what_the_accuracy_decided_and_what_overrules_it(tmp_path, capsys):
+    config = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
+    path = tmp_path / "quick.yaml"
+    words = {"accuracy": "quick", "relaxation": {"ramp_steps": 1500}}
+    path.write_text(yaml.safe_dump(config | words), encoding="utf-8")
+    text = spoken(capsys, "check", path)
+    assert "accuracy   quick, overruled by relaxation.ramp_steps: 1500\n" in text
+    assert text.count("25 % energy error") == 3
+    assert "1500 steps of ramp" in text and "rational_krylov to 0.01," in text
+    text = spoken(capsys, "check", ROOT / "config/tiny.yaml")
+    assert "standard, overruled by mesh.element_size_mm: 12, relaxation.ramp_steps: 400" in text
+    assert text.count("12 mm  as given") == 2
+
+
 def test_check_counts_the_jobs_that_snakemake_plans(tmp_path):
     study = changed(export={"formats": ["npz"]}, stiffness={"relaxed_refinements": 1})
     for config in (TINY, study):
@@ -195,8 +209,11 @@ def test_missing_or_unreadable_file_is_one_sentence(tmp_path, command):
 
 
 def test_expected_time_of_the_default_study_is_that_of_a_run():
-    """Its 36 jobs took 247 s on two processors, all of it 148 s; largest job 1551 MB."""
-    cost = expected(load_config(ROOT / "config/config.yaml"))
+    """Its 36 jobs took 247 s on two processors, all of it 148 s; largest job 1551 MB.
+
+    Each shape was refined once.
+    """
+    cost = expected(load_merged([ROOT / "config/config.yaml"], ["stiffness={refinements: 1}"]))
     assert 247 / 2 < cost.realisation_seconds < 247 * 2
     assert 148 / 2 < cost.wall_seconds(2) < 148 * 2
     assert cost.peak_memory_mb == pytest.approx(1551, rel=0.4)

@@ -8,6 +8,7 @@ import re
 import numpy as np
 import pytest
 import xarray as xr
+import yaml
 from synthetic import (
     COARSE,
     FAILED,
@@ -328,6 +329,35 @@ def test_a_mesh_that_does_not_follow_the_folds_is_named_and_made_finer():
     first, *_ = banner(sharper, assess_trust(sharper)).cures
     error = ERROR_COEFFICIENT * (0.8 * 60 / 150) ** 2
     assert first.keys[1] == f"mesh.energy_error_percent: {np.floor(1e3 * error) / 10:g}"
+
+
+def sized_by_word(cube, word, **changes):
+    """The cube with a configuration whose word has sized its elements, but for what is given."""
+    sweep = {"thickness_um": [250, 500], "reference_height_mm": [135, 250], "realisations": 3}
+    cube.attrs["config"] = load_config({"accuracy": word, "sweep": sweep} | changes).to_yaml()
+    return cube
+
+
+def test_where_a_word_sized_the_elements_a_finer_one_is_the_cure():
+    # 4 mm is 0.8 sqrt(R t); 60/80 of that has an energy error of 17 %, 60/150 one of 4.9 %
+    for word, angle, finer in (("quick", 80, "standard"), ("standard", 150, "fine")):
+        cube = folded_cube(angle, case=SyntheticCase(element_size_mm=4.0))
+        found = banner(cube, assess_trust(sized_by_word(cube, word)))
+        assert found.cures[0].keys == (f"accuracy: {finer}",)
+        asked = load_config(yaml.safe_load(sized_by_word(cube, finer).attrs["config"]))
+        time = duration(expected(asked).processor_seconds, 2)
+        assert f"about {time} of processor time" in found.cures[0].cost
+    # nothing but the error itself is finer than the finest, or than what was given beside the word
+    for word, changes in (("fine", {}), ("standard", {"mesh": {"energy_error_percent": 12}})):
+        cube = folded_cube(300, case=SyntheticCase(element_size_mm=4.0))
+        found = banner(cube, assess_trust(sized_by_word(cube, word, **changes)))
+        assert found.cures[0].keys[1].startswith("mesh.energy_error_percent: ")
+
+
+def test_the_page_names_the_accuracy_and_what_overrules_it(tmp_path):
+    cube = sized_by_word(folded_cube(40), "quick", relaxation={"ramp_steps": 3000})
+    page = words(written(cube, tmp_path))
+    assert "accuracy quick, overruled by relaxation.ramp_steps: 3000" in page
 
 
 def test_foil_that_no_mesh_resolves_is_left_out_of_the_cure(tmp_path):

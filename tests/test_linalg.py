@@ -12,8 +12,8 @@ from conftest import cylinder
 
 from foilstudy.linalg import (
     BlockKrylov,
-    SymmetricBlocks,
     SolveError,
+    SymmetricBlocks,
     backend,
     dissection,
     factorisation,
@@ -26,8 +26,8 @@ from foilstudy.linalg import (
 from foilstudy.linalg.pardiso import PardisoFactorisation
 from foilstudy.linalg.superlu import SuperLUFactorisation
 from foilstudy.measure.stiffness import InterfaceSystem, Rings
-from foilstudy.model.shell.held import held_blocks
 from foilstudy.model.shell.elements.sampled import STAGGERED
+from foilstudy.model.shell.held import held_blocks
 from foilstudy.model.shell.tangent import mass_matrix
 
 BACKENDS = [

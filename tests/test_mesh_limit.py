@@ -48,7 +48,7 @@ def truth(levels):
     return levels[-1] + (levels[-1] - levels[-2]) / 3
 
 
-@pytest.mark.parametrize("most", [1, 2])
+@pytest.mark.parametrize("most", [0, 1, 2])
 def test_the_stated_error_bounds_the_true_one(ladder, most):
     shape, levels = ladder
     limit = shape.mesh_limit_within(1e-9, most, levels[0])
@@ -69,6 +69,13 @@ def test_a_demand_that_is_met_makes_no_finer_mesh(ladder, asked):
     finer = shape.mesh_limit_within(0.999 * demand / 1.001, 2, levels[0])
     assert finer.refinements == 2
     assert asked == [("corner", 50), ("staggered", 50), ("corner", 25)]
+
+
+def test_a_demand_that_the_crumpled_mesh_meets_makes_no_other(ladder, asked):
+    shape, levels = ladder
+    limit = shape.mesh_limit_within(10.0, 2, levels[0])
+    assert limit.met and limit.refinements == 0 and not asked
+    assert np.array_equal(limit.stiffness, levels[0]) and (limit.error > 0).all()
 
 
 @pytest.mark.parametrize("most", [1, 2])
@@ -94,11 +101,13 @@ def pair(axial, radial):
     return np.array([axial, radial])
 
 
-@pytest.mark.parametrize("halvings, error", [(1, 0.0475), (2, 0.0475 / 4), (3, 0.0475 / 16)])
+@pytest.mark.parametrize(
+    "halvings, error", [(0, 0.3), (1, 0.0475), (2, 0.0475 / 4), (3, 0.0475 / 16)]
+)
 def test_what_no_step_shows_is_told_by_the_element_size(halvings, error):
     """5 mm elements on foil of 500 um with a radius of 100 mm, refined."""
     same = [pair(100, 200)] * (halvings + 1)
-    limit, stated = limit_by_need(same, same[0], np.sqrt(0.5))
+    limit, stated = limit_by_need(same, same[0] if halvings else None, np.sqrt(0.5))
     assert stated == pytest.approx(error)
     np.testing.assert_array_equal(limit, same[0])
 

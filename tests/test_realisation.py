@@ -27,6 +27,7 @@ def study(**sections):
             },
             "mesh": {"element_size_mm": 15},
             "relaxation": {"ramp_steps": 100, "relaxation_steps_max": 4000},
+            "stiffness": {"refinements": 1},
             "dynamics": {
                 "shown_max_hz": 100,
                 "frequencies": 5,

@@ -13,13 +13,13 @@ from foilstudy.measure.stiffness import (
     free_stiffness,
     transfer_stiffness,
 )
-from foilstudy.model.shell.held import held_blocks
 from foilstudy.measure.stiffness.rings import interface_rigid_modes, rigid_motion
 from foilstudy.measure.stiffness.transfer import _pulls
 from foilstudy.model.materials import Material
 from foilstudy.model.patch import refine
 from foilstudy.model.shell.elements.corner import Corner
 from foilstudy.model.shell.elements.one_point import OnePoint
+from foilstudy.model.shell.held import held_blocks
 from foilstudy.model.shell.shell import Shell
 
 RADIUS = DIAMETER / 2

@@ -16,6 +16,7 @@ use, so that ``import foilstudy`` stays cheap.
 from importlib import import_module
 
 _LAZY = {
+    "Accuracy": "foilstudy.config.accuracy",
     "ConfigError": "foilstudy.base.errors",
     "Crumpled": "foilstudy.pipeline.crumpled",
     "DynamicsOptions": "foilstudy.measure.dynamics.options",

@@ -33,6 +33,7 @@ JOBS_BEFORE_ESTIMATE = 4
 REASON_LENGTH = 80
 # Messages without an event that a user wants to see all the same.
 _WORTH_SHOWING = (
+    "Accuracy",
     "Nothing to be done",
     "This was a dry-run",
     "Elapsed time",

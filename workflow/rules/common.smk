@@ -8,7 +8,9 @@ import sys
 from pathlib import Path
 
 from foilstudy.base.manifest import MANIFEST
+from foilstudy.base.numerals import duration
 from foilstudy.config import ConfigError, load_merged
+from foilstudy.config.chosen import choices
 from foilstudy.config.slips import likely_slips, unresolved
 from foilstudy.present.figures import FIGURES
 from foilstudy.present.files import StudyFiles
@@ -45,7 +47,7 @@ BENCHMARKS = f"{RESULTS}/benchmarks"
 CELLS = STUDY.cells()
 COST = expected(STUDY)
 MEMORY_MB = {
-    (each.thickness_um, each.reference_height_mm): each.peak_memory_mb
+    (each.thickness_um, each.reference_height_mm): each.most_memory_mb
     for each in COST.configurations
 }
 PRESENTED = shown(StudyFiles(Path(RESULTS, "cube.nc")))
@@ -176,7 +178,14 @@ def warn_of_slips():
         logger.warning(sentence)
 
 
+def tell_choices():
+    """Say what the accuracy made of the study, and what all of it costs."""
+    cost = f"about {duration(COST.processor_seconds, 2)} of processor time for the whole study"
+    logger.info("\n".join([*choices(STUDY), f"  {cost}"]))
+
+
 onstart:
+    tell_choices()
     warn_of_slips()
     claim_results()
     start_worker()

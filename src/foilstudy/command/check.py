@@ -17,7 +17,16 @@ if TYPE_CHECKING:
 
 __all__ = ["check"]
 
-_HEADS = ("thickness", "elements", "size", "refined to", "steps", "time of each", "memory of a job")
+_HEADS = (
+    "thickness",
+    "elements",
+    "size",
+    "by",
+    "refined to",
+    "steps",
+    "time of each",
+    "memory of a job",
+)
 
 
 def check(file: Path, /, *, cores: Cores = 2) -> None:
@@ -46,7 +55,9 @@ def check(file: Path, /, *, cores: Cores = 2) -> None:
 
 
 def _resolved(study: StudyConfig) -> Iterator[tuple[str, str]]:
-    """What was written, and what defaults and `auto` became."""
+    """What was written, and what defaults, `accuracy` and `auto` became."""
+    from foilstudy.config.chosen import accuracy_words
+
     sheet, material, imperfection = study.sheet, study.material, study.imperfection
     yield (
         "foil",
@@ -54,6 +65,7 @@ def _resolved(study: StudyConfig) -> Iterator[tuple[str, str]]:
         f"{material.density_kg_m3:g} kg/m3), diameter {sheet.diameter_mm:g} mm, "
         f"gap {sheet.gap_height_mm:g} mm",
     )
+    yield "accuracy", accuracy_words(study.model_dump())
     yield "heights", ", ".join(f"{height:g}" for height in study.reference_heights_mm) + " mm"
     yield "overlength", ", ".join(f"{share:.3g}" for share in study.overlengths_percent) + " %"
     length = imperfection.correlation_length_mm
@@ -64,7 +76,7 @@ def _resolved(study: StudyConfig) -> Iterator[tuple[str, str]]:
     yield (
         "crumple",
         f"{mesh.element} elements{auto}; {imperfection.kind} imperfection of "
-        f"{imperfection.amplitude_um:g} um{correlated}; {relaxation.ramp_steps} steps of ramp, at "
+        f"{imperfection.amplitude_um:g} um{correlated}; {_ramp(study)} steps of ramp, at "
         f"most {relaxation.relaxation_steps_max} after it, to a residual of "
         f"{relaxation.residual_tolerance:g}",
     )
@@ -87,6 +99,11 @@ def _resolved(study: StudyConfig) -> Iterator[tuple[str, str]]:
         yield "export", ", ".join(study.export.formats)
 
 
+def _ramp(study: StudyConfig) -> str:
+    steps = [study.relaxation_of(thickness).ramp_steps for thickness in study.thicknesses_um]
+    return _range(min(steps), max(steps))
+
+
 def _table(study: StudyConfig, cost: Expected) -> Iterator[str]:
     """One line for each thickness, its heights as ranges."""
     by_thickness = groupby(cost.configurations, lambda each: each.thickness_um)
@@ -103,6 +120,7 @@ def _row(study: StudyConfig, heights: list[ExpectedConfiguration]) -> tuple[str,
         f"{first.thickness_um:g} um",
         _range(first.elements[0], last.elements[0]),
         f"{study.mesh_of(first.thickness_um).element_size_mm:g} mm",
+        study.sized_by(first.thickness_um),
         refined,
         _two_digits(first.steps),
         _range(_two_digits(first.seconds), _two_digits(last.seconds)) + " s",
@@ -137,3 +155,8 @@ def _summary(cost: Expected, cores: int) -> Iterator[str]:
         f"{cost.total_memory_mb(cores) / 1000:.1f} GB for all on {plural(cores, 'core')}, within "
         f"a factor of {MEMORY_SPREAD:g}."
     )
+    if cost.most_memory_mb > cost.peak_memory_mb:
+        yield (
+            f"Up to {cost.most_memory_mb / 1000:.1f} GB for a job whose shape needs more "
+            "refinements than expected."
+        )

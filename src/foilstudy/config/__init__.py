@@ -6,6 +6,7 @@ The model is the one source of the defaults, of ``config/schema.json`` and of th
 
 from foilstudy.base.errors import ConfigError
 
+from .accuracy import Accuracy
 from .export import Export
 from .isolation import Isolation
 from .load import load_config, load_merged
@@ -26,6 +27,7 @@ from .sections import (
 from .tasks import CrumpleTask, RefineTask, ResponseTask
 
 __all__ = [
+    "Accuracy",
     "Cell",
     "ConfigError",
     "CrumpleTask",

@@ -7,6 +7,7 @@ from typing import Any
 
 from foilstudy.model.materials import MATERIALS
 
+from .accuracy import ACCURACIES, STANDARD
 from .model import StudyConfig
 from .sections import CONSTANTS
 
@@ -55,8 +56,9 @@ _RULES = """\
 
 Numbers follow YAML 1.2 (`1e-6` is a number, `010` is ten), and a key given twice is an error.
 Files are UTF-8, of at most 64 kB. Several files (`--configfile A B`) are laid over each other key
-by key, and words such as `--config "sweep={realisations: 2}"` over them all. `foilstudy check`
-names what is refused, and what is possible but most likely a slip of unit or size.
+by key, and words such as `--config accuracy=quick "sweep={realisations: 2}"` over them all.
+`foilstudy check` names what is refused, and what is possible but most likely a slip of unit or
+size.
 """
 
 
@@ -72,6 +74,9 @@ def reference_page() -> str:
     schema = StudyConfig.model_json_schema()
     parts = [_HEAD]
     for name, entry in schema["properties"].items():
+        if name == "accuracy":
+            parts.append(_accuracy_table(entry))
+            continue
         section = schema["$defs"][entry["$ref"].rpartition("/")[2]]
         parts.append(_section_table(name, section))
         if name == "material":
@@ -93,11 +98,28 @@ def _section_table(name: str, section: dict[str, Any]) -> str:
             default = "by name"
         elif key in required:
             default = "required"
+        elif f"{name}.{key}" in STANDARD.values:
+            default = "by `accuracy`"
         else:
             default = _code(entry.get("default"))
         lines.append(
             f"| `{key}` | {entry['unit']} | {default} | {_range(entry)} | {entry['description']} |"
         )
+    return "\n".join(lines) + "\n"
+
+
+def _accuracy_table(entry: dict[str, Any]) -> str:
+    """What each word stands for, one column a tier."""
+    names = [f"`{name}`" for name in ACCURACIES]
+    lines = [
+        "## `accuracy`\n",
+        f"{entry['description']} Left out, it is `{entry['default']}`.\n",
+        f"| key | {' | '.join(names)} |",
+        f"|---|{'---|' * len(names)}",
+    ]
+    for path in STANDARD.values:
+        values = " | ".join(f"{tier.values[path]:g}" for tier in ACCURACIES.values())
+        lines.append(f"| `{path}` | {values} |")
     return "\n".join(lines) + "\n"
 
 

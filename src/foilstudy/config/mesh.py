@@ -11,14 +11,13 @@ from pydantic import Field, PlainSerializer, WithJsonSchema, WrapValidator, mode
 
 from foilstudy.base.numerals import times
 from foilstudy.model.foil import SMOOTH_LENGTH_MIN
-from foilstudy.model.mesh_size import element_size_for
+from foilstudy.model.mesh_size import SLENDERNESS_MAX, element_size_for, energy_error_at
 from foilstudy.model.shell.elements import ELEMENTS
 
+from .accuracy import AUTO, STANDARD
 from .choices import choice_of
-from .sections import Section, registry_field, unit_field
+from .sections import Section, registry_field, tier_words, unit_field
 
-AUTO = "auto"
-ENERGY_ERROR_DEFAULT_PERCENT = 10.0
 # Fewer elements cannot carry the first buckling waves.
 ELEMENTS_AROUND_MIN = 24
 ELEMENTS_ALONG_MIN = 8
@@ -53,8 +52,8 @@ class Mesh(Section):
     )
     energy_error_percent: float | None = unit_field(
         "%",
-        "Expected error of the strain energy that an `auto` element size keeps "
-        f"({ENERGY_ERROR_DEFAULT_PERCENT:g} if left out); only with `auto`.",
+        "Expected error of the strain energy that an `auto` element size keeps; only with `auto`. "
+        + tier_words("mesh.energy_error_percent"),
         None,
         ge=0.1,
         le=100,
@@ -79,7 +78,7 @@ class Mesh(Section):
             and data.get("element_size_mm", AUTO) == AUTO
             and data.get("energy_error_percent") is None
         ):
-            return dict(data) | {"energy_error_percent": ENERGY_ERROR_DEFAULT_PERCENT}
+            return dict(data) | {"energy_error_percent": STANDARD.energy_error_percent}
         return data
 
     @model_validator(mode="after")
@@ -101,18 +100,30 @@ class Mesh(Section):
 
         With `auto` never too coarse for the diameter and the shortest cylinder of the study.
         """
-        if self.element_size_mm != AUTO:
-            return self
-        error = self.energy_error_percent / 100
-        size = 1e3 * element_size_for(error, diameter_mm / 2 * 1e-3, thickness_um * 1e-6)
+        if self.element_size_mm == AUTO:
+            size, _ = self._sized(diameter_mm, shortest_mm, thickness_um)
+            return self.model_copy(
+                update={"element_size_mm": round(size, 9), "energy_error_percent": None}
+            )
+        return self
+
+    def sized_by(self, diameter_mm: float, shortest_mm: float, thickness_um: float) -> str:
+        """What decides the element size of one thickness, in a few words."""
+        if self.element_size_mm == AUTO:
+            return self._sized(diameter_mm, shortest_mm, thickness_um)[1]
+        return "as given"
+
+    def _sized(self, diameter_mm: float, shortest_mm: float, thickness_um: float):
+        """Size that `auto` stands for, mm, and what decides it."""
+        percent = self.energy_error_percent
+        size = 1e3 * element_size_for(percent / 100, diameter_mm / 2 * 1e-3, thickness_um * 1e-6)
         fitting = min(math.pi * diameter_mm / ELEMENTS_AROUND_MIN, shortest_mm / ELEMENTS_ALONG_MIN)
         fitting /= 2**self.ramp_coarsenings
-        size = size if size <= fitting else float(_floor(fitting))
-        return Mesh(
-            element_size_mm=round(size, 9),
-            element=self.element,
-            ramp_coarsenings=self.ramp_coarsenings,
-        )
+        if size > fitting:
+            return float(_floor(fitting)), "cylinder size"
+        if percent / 100 > energy_error_at(SLENDERNESS_MAX):
+            return size, "width of folds"
+        return size, f"{percent:g} % energy error"
 
 
 @dataclass(frozen=True)
@@ -170,7 +181,8 @@ def _size_problems(use: MeshUse, mesh: Mesh, size: float, which: str) -> Iterato
     if elements > ELEMENTS_MAX:
         coarser = size * math.sqrt(elements / ELEMENTS_MAX)
         remedy = (
-            "allow a larger mesh.energy_error_percent, refine less, or give a size"
+            "allow a larger mesh.energy_error_percent, as a coarser accuracy does, refine less, "
+            "or give a size"
             if which
             else f"use {coarser:.2g} mm or more, and check that the value is in mm"
         )

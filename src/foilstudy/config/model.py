@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any, Literal
 
 from pydantic import Field, model_validator
 
 from foilstudy.base.errors import ConfigError
 
+from .accuracy import ACCURACIES, STANDARD, Accuracy, completed
 from .export import Export
 from .isolation import Isolation
 from .mesh import Mesh, MeshUse, mesh_problems, refinements_that_fit
@@ -27,6 +29,7 @@ from .sections import (
     Stiffness,
     Study,
     Sweep,
+    unit_field,
 )
 from .tasks import CrumpleTask, RefineTask, ResponseTask
 
@@ -93,6 +96,13 @@ class StudyConfig(Section):
     """Configuration of a study."""
 
     study: Study = Field(default_factory=Study, description="Identity of the study.")
+    accuracy: Literal[tuple(ACCURACIES)] = unit_field(
+        "choice",
+        "One word for all tolerances; keys that are given win over it. "
+        + "; ".join(f"`{name}`: {tier.words}" for name, tier in ACCURACIES.items())
+        + ".",
+        STANDARD.name,
+    )
     sheet: Sheet = Field(
         default_factory=Sheet, description="Cylinder of foil and the gap it must fit."
     )
@@ -121,6 +131,25 @@ class StudyConfig(Section):
         )
 
     __str__ = __repr__
+
+    @model_validator(mode="before")
+    @classmethod
+    def _take_the_values_of_the_tier(cls, data: Any) -> Any:
+        return completed(data) if isinstance(data, Mapping) else data
+
+    @classmethod
+    def sections(cls) -> dict[str, type[Section]]:
+        """Its sections by name; the other keys hold a word."""
+        return {
+            name: field.annotation
+            for name, field in cls.model_fields.items()
+            if isinstance(field.annotation, type) and issubclass(field.annotation, Section)
+        }
+
+    @property
+    def tier(self) -> Accuracy:
+        """What the word `accuracy` stands for."""
+        return ACCURACIES[self.accuracy]
 
     @model_validator(mode="after")
     def _check_across_sections(self) -> StudyConfig:
@@ -183,8 +212,18 @@ class StudyConfig(Section):
 
     def mesh_of(self, thickness_um: float) -> Mesh:
         """Mesh of a thickness; with ``auto`` its element size is that of the stated error."""
-        shortest = self.reference_heights_mm[0]
-        return self.mesh.resolved(self.sheet.diameter_mm, shortest, thickness_um)
+        return self.mesh.resolved(*self._sizing(thickness_um))
+
+    def sized_by(self, thickness_um: float) -> str:
+        """What decided the element size of a thickness, in a few words."""
+        return self.mesh.sized_by(*self._sizing(thickness_um))
+
+    def _sizing(self, thickness_um: float) -> tuple[float, float, float]:
+        return self.sheet.diameter_mm, self.reference_heights_mm[0], thickness_um
+
+    def relaxation_of(self, thickness_um: float) -> Relaxation:
+        """Relaxation of a thickness, the steps of its ramp a number."""
+        return self.relaxation.resolved(1e3 * self.sheet.diameter_mm / 2 / thickness_um)
 
     def _thickness_problems(self) -> Iterator[str]:
         limit = 1e3 * self.sheet.diameter_mm / 2 * THICKNESS_TO_RADIUS_MAX
@@ -268,7 +307,7 @@ class StudyConfig(Section):
             material=self.material,
             imperfection=self.imperfection,
             mesh=self.mesh_of(cell.thickness_um),
-            relaxation=self.relaxation,
+            relaxation=self.relaxation_of(cell.thickness_um),
             method=self.method,
             thickness_um=cell.thickness_um,
             reference_height_mm=cell.reference_height_mm,

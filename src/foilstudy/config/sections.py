@@ -19,9 +19,12 @@ from foilstudy.model.materials import MATERIALS
 from foilstudy.model.shell.material import LAWS
 from foilstudy.solve.choices import DAMPINGS, MASSES, PATHS, SEARCHES
 
+from .accuracy import ACCURACIES, STANDARD
 from .choices import choice_of
 
 CORRELATION_LENGTH_DEFAULT_MM = 15.0
+RAMP_STEPS_MIN = 100
+"""In fewer the foil cannot follow the ring."""
 TEXT_MAX = 200
 # Any characters of any language, and several lines, but none that no file or terminal can show.
 _SHOWN = r"^[^\x00-\x08\x0B-\x1F\x7F-\x9F\u2028\u2029]*$"
@@ -37,6 +40,12 @@ def unit_field(unit: str, description: str, default: Any = ..., **constraints: A
 def registry_field(registry: Registry, default: str, what: str = "") -> Any:
     """Field with the names of a registry for values, described by its words."""
     return unit_field("choice", f"{what}{registry.words}", default)
+
+
+def tier_words(path: str) -> str:
+    """What the tiers make of a key, for its description."""
+    values = ", ".join(f"{tier.values[path]:g} ({name})" for name, tier in ACCURACIES.items())
+    return f"Decided by `accuracy`: {values}."
 
 
 class Section(BaseModel):
@@ -223,8 +232,20 @@ class Imperfection(Section):
 class Relaxation(Section):
     """Dynamic relaxation: ramp of the moving ring, then relaxation to equilibrium."""
 
-    ramp_steps: int = unit_field(
-        "steps", "Steps in which the top ring closes the gap.", 2000, ge=10, le=10_000_000
+    ramp_steps: int | None = unit_field(
+        "steps",
+        "Steps in which the top ring closes the gap. Left out, `ramp_slowness` decides.",
+        None,
+        ge=10,
+        le=10_000_000,
+    )
+    ramp_slowness: float | None = unit_field(
+        "steps",
+        "Those steps for each unit of radius over thickness, as thin foil moves slowly; only where "
+        "`ramp_steps` is left out. " + tier_words("relaxation.ramp_slowness"),
+        None,
+        gt=0,
+        le=10_000,
     )
     relaxation_steps_max: int = unit_field(
         "steps",
@@ -249,6 +270,33 @@ class Relaxation(Section):
         le=1000,
     )  # fmt: skip
 
+    @model_validator(mode="before")
+    @classmethod
+    def _default_slowness(cls, data: Any) -> Any:
+        if (
+            isinstance(data, Mapping)
+            and data.get("ramp_steps") is None
+            and data.get("ramp_slowness") is None
+        ):
+            return dict(data) | {"ramp_slowness": STANDARD.ramp_slowness}
+        return data
+
+    @model_validator(mode="after")
+    def _steps_or_slowness(self) -> Relaxation:
+        if self.ramp_steps is not None and self.ramp_slowness is not None:
+            raise ValueError(
+                "relaxation.ramp_slowness is given, but relaxation.ramp_steps settles the ramp; "
+                "remove one of them."
+            )
+        return self
+
+    def resolved(self, slenderness: float) -> Relaxation:
+        """That of a foil of one R/t, the steps of its ramp a number."""
+        if self.ramp_steps is not None:
+            return self
+        steps = max(RAMP_STEPS_MIN, round(self.ramp_slowness * slenderness))
+        return self.model_copy(update={"ramp_steps": steps, "ramp_slowness": None})
+
 
 class Method(Section):
     """Strategies of crumpling; each is recorded with its numbers in every result."""
@@ -260,10 +308,6 @@ class Method(Section):
     stress_removal: choice_of(STRESS_REMOVALS) = registry_field(STRESS_REMOVALS, "reset")
 
 
-REFINEMENTS_BY_NEED = 2
-"""Refinements at most where an error is demanded and no number is given."""
-
-
 class Stiffness(Section):
     """Static stiffness between the end rings."""
 
@@ -271,7 +315,8 @@ class Stiffness(Section):
         "%",
         "Largest mesh error of the stress-free stiffness of the crumpled shape, axial and radial, "
         "by its own estimate: the shape is refined until that meets it and no further, "
-        "`refinements` times at most. If left out, it is refined `refinements` times.",
+        "`refinements` times at most. If that number is given and this is not, the shape is "
+        "refined so often. " + tier_words("stiffness.error_percent"),
         None,
         ge=0.01,
         le=20,
@@ -280,9 +325,8 @@ class Stiffness(Section):
         "1",
         "Exact refinements of the crumpled shape, each halving the elements, for the mesh error "
         "of the stress-free stiffness; with 2 it is extrapolated. With `error_percent` the most "
-        f"that are made ({REFINEMENTS_BY_NEED} if left out), fewer where elements would become too "
-        "many.",
-        1,
+        "that are made, fewer where elements would become too many.",
+        2,
         ge=0,
         le=3,
     )
@@ -295,22 +339,6 @@ class Stiffness(Section):
         le=2,
     )
 
-    @model_validator(mode="before")
-    @classmethod
-    def _most_by_need(cls, data: Any) -> Any:
-        if isinstance(data, Mapping) and data.get("error_percent") is not None:
-            return {"refinements": REFINEMENTS_BY_NEED} | dict(data)
-        return data
-
-    @model_validator(mode="after")
-    def _something_to_state_an_error_by(self) -> Stiffness:
-        if self.error_percent is not None and self.refinements == 0:
-            raise ValueError(
-                "stiffness.error_percent is given, but without a refinement no error can be "
-                "stated; set stiffness.refinements: 1 or more, or remove one of them."
-            )
-        return self
-
 
 class Dynamics(Section):
     """Dynamic stiffness between the end rings."""
@@ -321,8 +349,9 @@ class Dynamics(Section):
     tolerance: float = unit_field(
         "1",
         "Largest relative error of the reduction in the shown band, by its own estimate; beyond "
-        "the frequency up to which the estimate meets it, the dynamic stiffness is left out.",
-        1e-3,
+        "the frequency up to which the estimate meets it, the dynamic stiffness is left out. "
+        + tier_words("dynamics.tolerance"),
+        STANDARD.reduction_tolerance,
         ge=1e-6,
         lt=1,
     )

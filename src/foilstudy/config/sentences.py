@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from difflib import get_close_matches
 from functools import partial
 from typing import Any
 
-from pydantic import BaseModel, ValidationError
+from pydantic import ValidationError
 from pydantic.fields import FieldInfo
+
+from foilstudy.base.registry import did_you_mean
 
 from .model import StudyConfig
 from .sections import TEXT_MAX
@@ -74,7 +77,10 @@ def _sentence(kind: str, loc: tuple[str | int, ...], value: Any, ctx: dict[str, 
     if kind == "too_long" and isinstance(value, list | tuple):
         return f"{path} has {len(value)} values; give at most {ctx['max_length']}."
     if kind == "literal_error":
-        return f"{path} is {describe(value)}, which is no choice; use one of {ctx['expected']}."
+        names = re.findall("'([^']*)'", ctx["expected"])
+        hint = did_you_mean(value, names) if isinstance(value, str) else ""
+        expected = f"{hint}use one of {ctx['expected']}"
+        return f"{path} is {describe(value)}, which is no choice; {expected}."
     if kind == "string_type":
         return f"{path} is {describe(value)}, not text; put it in quotes."
     if kind.startswith("string_") and _extra(field).get("unit") == "text":
@@ -100,16 +106,8 @@ def _path(loc: tuple[str | int, ...]) -> str:
     return text.removeprefix(".")
 
 
-def _sections() -> dict[str, type[BaseModel]]:
-    return {
-        name: field.annotation
-        for name, field in StudyConfig.model_fields.items()
-        if isinstance(field.annotation, type) and issubclass(field.annotation, BaseModel)
-    }
-
-
 def _keys(loc: tuple[str | int, ...]) -> list[str]:
-    model = _sections()[str(loc[0])] if loc else StudyConfig
+    model = StudyConfig.sections()[str(loc[0])] if loc else StudyConfig
     return list(model.model_fields)
 
 
@@ -120,7 +118,9 @@ def _unknown_key(loc: tuple[str | int, ...]) -> str:
     close = get_close_matches(key, siblings, n=1) or [s for s in siblings if s.startswith(key)]
     if close:
         return f"{path} is not a known key; did you mean {_path((*parents, close[0]))}?"
-    everywhere = [f"{name}.{k}" for name, model in _sections().items() for k in model.model_fields]
+    everywhere = [
+        f"{name}.{k}" for name, model in StudyConfig.sections().items() for k in model.model_fields
+    ]
     elsewhere = [known for known in everywhere if known.endswith(f".{key}")]
     if elsewhere:
         return f"{path} is not a known key; it belongs to another section: {elsewhere[0]}."
@@ -133,7 +133,7 @@ def _unknown_key(loc: tuple[str | int, ...]) -> str:
 
 
 def _field(loc: tuple[str | int, ...]) -> FieldInfo | None:
-    model = _sections().get(str(loc[0]))
+    model = StudyConfig.sections().get(str(loc[0]))
     if len(loc) == 1 or model is None:
         return StudyConfig.model_fields.get(str(loc[0]))
     return model.model_fields.get(str(loc[1]))

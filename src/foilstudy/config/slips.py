@@ -13,6 +13,7 @@ from foilstudy.base.numerals import number
 from foilstudy.model.mesh_size import SLENDERNESS_MAX
 
 from .model import StudyConfig
+from .sections import RAMP_STEPS_MIN
 
 __all__ = ["likely_slips", "unresolved"]
 
@@ -31,7 +32,6 @@ YIELD_STRAIN_RANGE = (1e-4, 0.2)
 AMPLITUDE_MAX = 10.0
 """Of an imperfection, over the thickness."""
 TOLERANCE_RANGE = (1e-12, 1e-3)
-RAMP_STEPS_MIN = 100
 ELEMENTS_MAX = 200_000
 """Of the mesh that is crumpled: ten times the finest of docs/convergence.md."""
 
@@ -165,7 +165,7 @@ def _of_numerics(study: StudyConfig) -> Iterator[str]:
             f"relaxation.residual_tolerance is {tolerance:g}, so large that a crumple need not be "
             "in equilibrium; check its exponent."
         )
-    if relaxation.ramp_steps < RAMP_STEPS_MIN:
+    if relaxation.ramp_steps is not None and relaxation.ramp_steps < RAMP_STEPS_MIN:
         yield (
             f"relaxation.ramp_steps is {relaxation.ramp_steps}, in which the foil cannot follow "
             "the ring; use some hundreds."

@@ -40,12 +40,12 @@ def read_file(path: Path) -> dict[str, Any]:
 
 
 def read_word(word: str) -> dict[str, Any]:
-    """Content of a word such as ``sweep={realisations: 2}``.
+    """Content of a word such as ``sweep={realisations: 2}`` or ``accuracy=quick``.
 
     Raises
     ------
     ConfigError
-        If it is none, or names no section.
+        If it is none, or names neither a section nor a key outside them.
     """
     from ._yaml import read_yaml  # jobs that only read a task need no YAML
 
@@ -53,7 +53,7 @@ def read_word(word: str) -> dict[str, Any]:
     place = f"--config {key}"
     if not equals or key not in StudyConfig.model_fields:
         section, dot, name = key.partition(".")
-        known = dot and equals and section in StudyConfig.model_fields
+        known = dot and equals and section in StudyConfig.sections()
         example = f"{section}={{{name}: {value}}}" if known else "sweep={realisations: 2}"
         raise ConfigError(
             f"{shown(place)}: this is not SECTION={{KEY: VALUE}}; write such as "
@@ -63,7 +63,7 @@ def read_word(word: str) -> dict[str, Any]:
         content = read_yaml(value)
     except ConfigError as error:
         raise named(place, error) from None
-    if not isinstance(content, Mapping):
+    if not isinstance(content, Mapping) and key in StudyConfig.sections():
         raise ConfigError(
             f"{place}: {key} is {describe(content)}, not a section; write its keys such as "
             f'--config "{key}={{{next(iter(_keys_of(key)))}: VALUE}}".'
@@ -83,7 +83,7 @@ def merged(contents: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
 
 
 def _keys_of(section: str) -> Iterable[str]:
-    return StudyConfig.model_fields[section].annotation.model_fields
+    return StudyConfig.sections()[section].model_fields
 
 
 def _text_of(path: Path) -> str:

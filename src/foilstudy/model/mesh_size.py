@@ -18,6 +18,11 @@ ERROR_COEFFICIENT = 0.48
 """Relative error of the strain energy by the default element over (h / sqrt(R t))^order: weighted
 least squares over the means of two or three seeds at 7, 5, 4, 2.5 and 1.25 mm, standard error
 0.07."""
+STIFFNESS_ERROR_COEFFICIENT = 0.38
+"""Relative error of the stiffness of a given folded shape, at most, over (h / sqrt(R t))^2, as
+measured (docs/method.md, section 6)."""
+UNREFINED_ERROR_COEFFICIENT = 0.6
+"""The same on the mesh of the crumple itself, whose folds have adapted to it: 0.58 of 48 values."""
 SLENDERNESS_MAX = 1.0
 """Largest h / sqrt(R t) of that fit."""
 
@@ -30,6 +35,19 @@ def expected_energy_error(size: float, radius: float, thickness: float) -> float
 def energy_error_at(slenderness):
     """The same of the element size over sqrt(R t); a number or an array."""
     return ERROR_COEFFICIENT * slenderness**ERROR_ORDER
+
+
+def stiffness_error_at(slenderness: float, halvings: int) -> float:
+    """Relative error of the stiffness of a given shape whose elements have been halved.
+
+    Parameters
+    ----------
+    slenderness : float
+        Size of the elements it was crumpled on over sqrt(R t).
+    halvings : int
+    """
+    refined = STIFFNESS_ERROR_COEFFICIENT if halvings else UNREFINED_ERROR_COEFFICIENT
+    return refined * (slenderness / 2**halvings) ** ERROR_ORDER
 
 
 def element_size_for(error: float, radius: float, thickness: float) -> float:

@@ -94,7 +94,7 @@ def mesh_limit_within(
     error : float
         Largest stated error of both directions, a share of the value.
     most : int
-        How often the elements are halved at most, 1 or more.
+        How often the elements are halved at most.
     coarsest
         As in `mesh_limit_of`.
 
@@ -108,14 +108,13 @@ def mesh_limit_within(
     slenderness = size / np.sqrt(foil.diameter / 2 * foil.thickness)
     levels = [stress_free_stiffness(shape) if coarsest is None else coarsest]
     fine, staggered = shape, None
-    for _ in range(most):
+    limit, stated = limit_by_need(levels, staggered, slenderness)
+    while stated > error and len(levels) <= most:
         fine = fine.refined()
         levels.append(stress_free_stiffness(fine))
         if staggered is None:
             staggered = _staggered(fine)
         limit, stated = limit_by_need(levels, staggered, slenderness)
-        if stated <= error:
-            break
     return MeshLimit(limit, stated * np.abs(limit), tuple(levels), stated <= error)
 
 

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from foilstudy.model.mesh_size import stiffness_error_at
+
 _QUARTER = 4.0
 """By how much halving the elements lowers an error of second order."""
 _SAFETY = 2.0
 """Stated error over estimated one."""
-_FOLDED = 0.38
-"""Error, a share, of elements sqrt(R t) wide: see `limit_by_need`."""
 
 
 def mesh_limit(
@@ -51,21 +51,22 @@ def mesh_limit(
 
 
 def limit_by_need(
-    levels: Sequence[np.ndarray], staggered: np.ndarray, slenderness: float
+    levels: Sequence[np.ndarray], staggered: np.ndarray | None, slenderness: float
 ) -> tuple[np.ndarray, float]:
     """The limit of `mesh_limit`, and an error of both directions that tells when to stop refining.
 
     The largest of three signs. Elements of size h on folded foil of radius R and thickness t miss
     up to 38 % h^2 / (R t), whatever the shape, and meshes that are all too coarse do not show it by
-    their steps. Where there are three meshes, what is left after the last step: a third of it, all
-    of it where steps do not shrink. The distance to the staggered element on the second mesh, which
+    their steps; on the mesh of the crumple it is up to 60 %, and nothing else tells. Where there
+    are three meshes, what is left after the last step: a third of it, all of it where steps do not
+    shrink. The distance to the staggered element on the second mesh, which
     shrinks at second order. The latter two count by the direction where they are larger, as either
     vanishes by chance in one. Measured in docs/method.md, section 6.
 
     Parameters
     ----------
     levels, staggered
-        As in `mesh_limit`.
+        As in `mesh_limit`; of a single level without the other discretisation.
     slenderness : float
         Element size of the coarsest mesh over sqrt(R t).
 
@@ -77,7 +78,9 @@ def limit_by_need(
         A share of either value.
     """
     halvings = len(levels) - 1
-    folded = _FOLDED * slenderness**2 / _QUARTER**halvings
+    folded = stiffness_error_at(slenderness, halvings)
+    if not halvings:
+        return levels[0].copy(), folded
     gap = np.abs(staggered / levels[1] - 1) / _QUARTER ** (halvings - 1)
     signs = [folded, gap.max()]
     if halvings > 1:

@@ -9,7 +9,7 @@ from typing import Any
 
 from foilstudy.base.numerals import duration, nominal
 from foilstudy.config import ConfigError, Sheet, StudyConfig, load_config
-from foilstudy.config.mesh import ENERGY_ERROR_DEFAULT_PERCENT
+from foilstudy.config.accuracy import ACCURACIES, STANDARD, Accuracy
 from foilstudy.model.mesh_size import (
     SLENDERNESS_MAX,
     element_size_for,
@@ -85,9 +85,9 @@ def cures(cube, need: Need) -> list[Cure]:
         content["sweep"]["thickness_um"] = kept
         left = (f"sweep.thickness_um: [{', '.join(f'{t:g}' for t in kept)}]",) if first else ()
         found = [
-            Cure((*_keys(mesh), *keys, *left), _sizes(study), _cost(study, crumples=True))
-            for mesh in _meshes(content, need.error)
-            if (study := _study(content | {"mesh": mesh}))
+            Cure((*lines, *keys, *left), _sizes(study), _cost(study, crumples=True))
+            for lines, changed in _changes(content, need.error)
+            if (study := _study(changed))
         ]
         if found:
             return found[:2]
@@ -112,17 +112,54 @@ def _content(cube) -> dict[str, Any]:
     return content
 
 
-def _meshes(content: Mapping[str, Any], error: float | None) -> Iterator[dict[str, Any]]:
+def _changes(
+    content: dict[str, Any], error: float | None
+) -> Iterator[tuple[tuple[str, ...], dict[str, Any]]]:
+    """Lines of a configuration and the content that they make, the thorough ones first."""
+    largest = _largest_percent(error)
+    tier = _tier(content)
+    if (content.get("mesh") or {}).get("energy_error_percent") == tier.energy_error_percent:
+        # the word has sized the elements, and another one sizes them anew
+        finer = [other for other in ACCURACIES.values() if other.energy_error_percent <= largest]
+        if finer and largest < tier.energy_error_percent:
+            other = max(finer, key=lambda each: each.energy_error_percent)
+            yield (f"accuracy: {other.name}",), _with_another_tier(content, tier, other)
+    for mesh in _meshes(content, largest):
+        yield _keys(mesh), content | {"mesh": mesh}
+
+
+def _tier(content: Mapping[str, Any]) -> Accuracy:
+    return ACCURACIES.get(content.get("accuracy"), STANDARD)
+
+
+def _with_another_tier(
+    content: Mapping[str, Any], tier: Accuracy, other: Accuracy
+) -> dict[str, Any]:
+    """A content in which all that the one word decided is decided by another one."""
+    changed = dict(content) | {"accuracy": other.name}
+    for path, value in tier.values.items():
+        name, _, key = path.partition(".")
+        section = changed.get(name) or {}
+        if section.get(key) == value:
+            changed[name] = dict(section) | {key: other.values[path]}
+    return changed
+
+
+def _largest_percent(error: float | None) -> float:
+    return math.inf if error is None else math.floor(1e3 * error) / 10
+
+
+def _meshes(content: Mapping[str, Any], largest: float) -> Iterator[dict[str, Any]]:
     """Sections `mesh` that resolve every foil, from the finest to the coarsest."""
     section = content.get("mesh") or {}
     element = {"element": section["element"]} if "element" in section else {}
-    largest = math.inf if error is None else math.floor(1e3 * error) / 10
-    if largest < ENERGY_ERROR_DEFAULT_PERCENT:
+    by_word = _tier(content).energy_error_percent
+    if largest < by_word:
         yield {"element_size_mm": "auto", "energy_error_percent": largest} | element
         return
     yield {"element_size_mm": "auto"} | element
     for percent in (COARSER_ERROR_PERCENT, round(100 * COARSEST_ERROR, 6)):
-        if percent <= largest:
+        if by_word < percent <= largest:
             yield {"element_size_mm": "auto", "energy_error_percent": percent} | element
     if element not in ({}, {"element": "corner"}):  # the only one that knows `auto`
         sheet = content.get("sheet") or {}

@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 
 from foilstudy.base.numerals import number, plural
+from foilstudy.config.sections import Relaxation
 from foilstudy.present.report.spread import Spread
 
 
@@ -66,6 +67,14 @@ class Equilibrium:
         return max((row.worst_residual for row in self.thicknesses), default=np.nan)
 
 
+def _ramp_steps(config: Mapping, thickness_um: float) -> float:
+    """Steps of the ramp of one thickness; NaN where the configuration does not say."""
+    if "relaxation" not in config or "sheet" not in config:
+        return np.nan
+    relaxation = Relaxation.model_validate(config["relaxation"])
+    return relaxation.resolved(1e3 * config["sheet"]["diameter_mm"] / 2 / thickness_um).ramp_steps
+
+
 def assess_equilibrium(cube: xr.Dataset, config: Mapping) -> Equilibrium:
     """Read from the cube how its realisations settled.
 
@@ -81,7 +90,7 @@ def assess_equilibrium(cube: xr.Dataset, config: Mapping) -> Equilibrium:
     eigenvalues = _variable(cube, "negative_eigenvalues")
     residual = _variable(cube, "equilibrium_residual")
     settled = (residual <= tolerance) & (eigenvalues == 0)
-    steps = _variable(cube, "steps") - options.get("ramp_steps", np.nan)
+    steps = _variable(cube, "steps")
     newton_steps = _variable(cube, "newton_steps")
     rows = []
     for thickness in cube["thickness"].values:
@@ -94,7 +103,7 @@ def assess_equilibrium(cube: xr.Dataset, config: Mapping) -> Equilibrium:
                     residual.sel(at).size,
                     int(settled.sel(at).sum()),
                     residuals.highest,
-                    Spread.of(steps.sel(at)),
+                    Spread.of(steps.sel(at) - _ramp_steps(config, thickness)),
                     Spread.of(newton_steps.sel(at)),
                 )
             )

@@ -13,6 +13,7 @@ import xarray as xr
 
 from foilstudy.base import numerals
 from foilstudy.base.files import written_whole
+from foilstudy.config.chosen import accuracy_words
 from foilstudy.plot.save import inches_wide
 from foilstudy.present.comparison import comparable, comparison_sentence, studied_case
 from foilstudy.present.configuration import configuration, isolation_options, study_of
@@ -216,6 +217,8 @@ def _scope(cube: xr.Dataset, config: Mapping) -> list[str]:
         )
     if "mesh" in config:
         phrases.append(f"{mesh.element_kind(config)} elements {_element_size(config['mesh'])}")
+    if "accuracy" in config:
+        phrases.append(f"accuracy {accuracy_words(config)}")
     return phrases
 
 

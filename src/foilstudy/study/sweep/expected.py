@@ -8,11 +8,14 @@ Time is a sum of power laws, each with its reason:
   the steps it is told to take;
 - a static stiffness costs a factorisation, on every mesh of the ladder: twice on the mesh of the
   crumple (stress-free and pre-stressed) and on the first refinement (corner and staggered element);
+- where an error of it is demanded, the ladder ends on the first mesh that meets it, of which the
+  element size over sqrt(R t) says most (`foilstudy.model.mesh_size`);
 - a reduction costs a factorisation and the projection on its coordinates, elements times their
   square. They grow with the modes in the band, in number proportional to its end, and with R/t.
 
 Memory is proportional to the elements of the finest mesh that is factorised, or to elements times
-coordinates of the reduction, if that is more.
+coordinates of the reduction, if that is more. A shape may need more refinements than expected: the
+most that a job may take is told beside it.
 
 `benchmarks/expected.py` fits the coefficients of `CostModel` to finished studies. They are those of
 the default element and the default reduction: of thin foil the one-point element takes fewer steps.
@@ -20,14 +23,16 @@ the default element and the default reduction: of thin foil the one-point elemen
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from foilstudy.base.numerals import number
-from foilstudy.config import Cell, StudyConfig
+from foilstudy.config import Cell, ResponseTask, StudyConfig
 from foilstudy.config.foils import foil_of, patch_of
+from foilstudy.model.mesh_size import stiffness_error_at
 
 __all__ = [
     "MEASURED",
@@ -127,13 +132,13 @@ class ExpectedConfiguration:
     thickness_um, reference_height_mm : float
         As configured.
     elements : tuple of int
-        Of the mesh that is crumpled, and of each refinement of its shape.
+        Of the mesh that is crumpled, and of each expected refinement of its shape.
     steps : int
         Ramp and relaxation.
     seconds_of : mapping of str to float
         Processor time of the physics of its jobs, by their kind.
-    peak_memory_mb : float
-        Of the largest of its jobs.
+    peak_memory_mb, most_memory_mb : float
+        Of the largest of its jobs, and of that if a shape needs all refinements that it may have.
     """
 
     thickness_um: float
@@ -142,6 +147,7 @@ class ExpectedConfiguration:
     steps: int
     seconds_of: Mapping[str, float]
     peak_memory_mb: float
+    most_memory_mb: float
 
     @property
     def seconds(self) -> float:
@@ -176,6 +182,11 @@ class Expected:
     def peak_memory_mb(self) -> float:
         """Memory of the largest job."""
         return max(each.peak_memory_mb for each in self.configurations)
+
+    @property
+    def most_memory_mb(self) -> float:
+        """The same if its shape needs all refinements that it may have."""
+        return max(each.most_memory_mb for each in self.configurations)
 
     def wall_seconds(self, cores: int) -> float:
         """Time until the report is there, on so many free cores."""
@@ -220,10 +231,13 @@ def _configuration(study: StudyConfig, cell: Cell, model: CostModel) -> Expected
     patch, foil = patch_of(task), foil_of(task)
     elements = patch.elements_around * patch.elements_along
     slenderness = foil.diameter / 2 / foil.thickness
-    meshes = tuple(4**level * elements for level in range(study.stiffness.refinements + 1))
+    width = max(patch.size_around, patch.size_along) / math.sqrt(foil.diameter / 2 * foil.thickness)
+    response = study.response_task(cell)
+    most, refinements = response.refinements, _refinements(response, width)
+    meshes = tuple(4**level * elements for level in range(refinements + 1))
     relaxed = [4**level * elements for level in range(1, study.stiffness.relaxed_refinements + 1)]
     relaxing = min(model.steps_after_ramp(slenderness), study.relaxation.relaxation_steps_max)
-    steps = study.relaxation.ramp_steps + round(relaxing)
+    steps = task.relaxation.ramp_steps + round(relaxing)
     coordinates = model.reduced_coordinates(slenderness, study.dynamics.shown_max_hz)
     dynamic = model.dynamic_seconds(elements, coordinates)
     seconds = {
@@ -234,7 +248,25 @@ def _configuration(study: StudyConfig, cell: Cell, model: CostModel) -> Expected
         seconds["refine"] = sum(model.crumple_seconds(mesh, relaxing) for mesh in relaxed)
     if study.export.formats:
         seconds["export"] = model.solve_seconds(elements) + dynamic
-    memory = float(model.peak_memory_mb(max([*meshes, *relaxed]), elements, coordinates))
+    memory = [
+        float(model.peak_memory_mb(max([finest, *relaxed]), elements, coordinates))
+        for finest in (meshes[-1], 4**most * elements)
+    ]
     return ExpectedConfiguration(
-        cell.thickness_um, cell.reference_height_mm, meshes, steps, seconds, memory
+        cell.thickness_um, cell.reference_height_mm, meshes, steps, seconds, *memory
     )
+
+
+def _refinements(task: ResponseTask, width: float) -> int:
+    """Refinements of a shape crumpled on elements `width` times sqrt(R t) wide.
+
+    A shape whose steps do not shrink takes more.
+    """
+    if task.error_percent is None:
+        return task.refinements
+    enough = (
+        halvings
+        for halvings in range(task.refinements)
+        if stiffness_error_at(width, halvings) <= task.error_percent / 100
+    )
+    return next(enough, task.refinements)

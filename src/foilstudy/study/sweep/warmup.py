@@ -85,6 +85,7 @@ def _smallest(sections: dict) -> dict:
         "sweep": {"thickness_um": [500], "reference_height_mm": [150], "realisations": 1},
         "mesh": {"element_size_mm": 18},
         "relaxation": {"ramp_steps": 100},
+        "stiffness": {"refinements": 1},
         "dynamics": {"shown_max_hz": 50},
     }
     return content | {key: content.get(key, {}) | value for key, value in sections.items()}
