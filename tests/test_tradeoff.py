@@ -22,7 +22,7 @@ from foilstudy.study.tradeoff.frozen import Static
 from foilstudy.study.tradeoff.knees import beaten
 from foilstudy.study.tradeoff.pace import in_turns
 from foilstudy.study.tradeoff.plan import LADDERS, STUDY
-from foilstudy.study.tradeoff.points import bias, default_of
+from foilstudy.study.tradeoff.points import bias, default_of, text_of
 from foilstudy.study.tradeoff.settings import Point, changed, read_settings, value_at
 
 ROOT = Path(__file__).parents[1]
@@ -264,3 +264,39 @@ def test_it_is_not_by_what_fails_in_another_quantity_or_ladder():
         assert beaten(rows)
         rows += [DEFAULT | place, row("500", 0.5, 0.1) | place]
         assert beaten(rows) == []
+
+
+# --- the results of the repository ---------------------------------------------------------------
+
+
+NUMBERS = ("ratio", "error", "interval", "failed")
+
+
+@pytest.fixture(scope="module")
+def charted():
+    """Rows of the table as it was written."""
+    with (ROOT / "results/tradeoff/tradeoff.csv").open(encoding="utf-8") as file:
+        return [
+            each
+            | {key: float(each[key]) if each[key] else None for key in NUMBERS}
+            | {key: each[key] == "True" for key in ("held", "default")}
+            for each in csv.DictReader(file)
+        ]
+
+
+def test_no_setting_beats_a_default(charted):
+    assert beaten(charted) == []
+
+
+def test_the_table_is_of_these_settings_and_of_the_defaults_as_they_are(charted):
+    wanted = set()
+    for ladder in LADDERS:
+        for family in ladder.families:
+            first = next(each for each in ladder.families if each.family == family.family)
+            wanted.add((ladder.name, family.family, text_of(ladder, first, ladder.default), True))
+            wanted |= {
+                (ladder.name, family.family, text_of(ladder, family, point), False)
+                for point in ladder.default.points(family)
+            }
+    found = {(e["ladder"], e["setting"], e["value"], e["default"]) for e in charted}
+    assert found == wanted
