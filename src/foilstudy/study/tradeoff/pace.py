@@ -7,7 +7,7 @@ from typing import Any
 
 from foilstudy.base.costs import measured
 
-_ROUNDS, _ENOUGH = 3, 2.0
+_ROUNDS, _ENOUGH = 20, 2.0
 """Turns at most, and processor seconds of both together after which there is none more."""
 
 
