@@ -7,8 +7,8 @@ from typing import Any
 
 from foilstudy.base.costs import measured
 
-_ROUNDS, _ENOUGH = 20, 2.0
-"""Turns at most, and processor seconds of both together after which there is none more."""
+_TURNS, _ENOUGH = 20, 2.0
+"""Turns at most, and processor seconds in all after which there is none more."""
 
 
 def in_turns(own: Callable[[], Any], default: Callable[[], Any]) -> tuple[Any, dict[str, float]]:
@@ -17,12 +17,16 @@ def in_turns(own: Callable[[], Any], default: Callable[[], Any]) -> tuple[Any, d
     The pace of a machine drifts with its temperature and with what else runs on it; that of the
     default in the same minute tells by how much.
     """
-    result, seconds, pace = None, [], []
-    while len(seconds) < _ROUNDS and sum(seconds) + sum(pace) < _ENOUGH:
-        with measured() as cost:
-            default()
-        pace.append(cost.cpu_seconds)
-        with measured() as cost:
-            result = own()
-        seconds.append(cost.cpu_seconds)
+    _, first = _timed(default)  # it also loads what is loaded once
+    pace, seconds, result = [first], [], None
+    while not seconds or (len(seconds) < _TURNS and sum(seconds) + sum(pace) < _ENOUGH):
+        result, taken = _timed(own)
+        seconds.append(taken)
+        pace.append(_timed(default)[1])
     return result, {"seconds": min(seconds), "pace": min(pace)}
+
+
+def _timed(task: Callable[[], Any]) -> tuple[Any, float]:
+    with measured() as cost:
+        result = task()
+    return result, cost.cpu_seconds
