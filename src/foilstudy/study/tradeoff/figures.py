@@ -155,7 +155,15 @@ def _mark(ax, row: Row) -> None:
         look = {"marker": "D", "mfc": "black", "ms": 7, "label": "default"}
     elif row.reference:
         look = {"marker": "s", "mfc": "0.75", "ms": 6, "label": "reference"}
-    ax.plot(row.seconds, error, color="black", mec="black", ls="none", zorder=3, **look)
+    ax.plot(
+        row.seconds,
+        error,
+        color="black",
+        mec="black",
+        ls="none",
+        zorder=5 if row.default else 3,
+        **look,
+    )
 
 
 def _label(ax, rows: list[Row], size: tuple[float, float]) -> None:
