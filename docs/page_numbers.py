@@ -28,7 +28,7 @@ from foilstudy.present.statistics.powerlaw import LIMIT, PLAIN, TRUSTED
 from foilstudy.present.statistics.trust import assess_trust
 
 ROOT = Path(__file__).parents[1]
-PAGES = ("README.md", "docs/comparison.md", "docs/method.md")
+PAGES = ("README.md", "docs/comparison.md", "docs/method.md", "docs/tradeoff.md")
 BLOCK = re.compile(r"(<!-- numbers: (\w+) -->\n)(.*?)(<!-- end -->)", re.DOTALL)
 DIRECTIONS = ("axial", "radial")
 PRESTRESSED = "simulation pre-stressed"
@@ -358,6 +358,11 @@ def costs(study: Study) -> Iterator[str]:
     )
 
 
+def tradeoff(study: Study) -> Iterator[str]:
+    """The tables of the charts of speed against accuracy, another study's."""
+    yield from (ROOT / "results/tradeoff/tradeoff.md").read_text("utf-8").splitlines()
+
+
 def _list(values: list[int]) -> str:
     return ", ".join(map(str, values))
 
@@ -366,7 +371,7 @@ BLOCKS = {
     each.__name__: each
     for each in (
         law, dimensionless, trust, means, simulation, experiment, prestress, bound, variability,
-        dynamics, eigenfrequency, shapes, steps, costs,
+        dynamics, eigenfrequency, shapes, steps, costs, tradeoff,
     )
 }  # fmt: skip
 

@@ -16,7 +16,7 @@ from foilstudy.config.slips import likely_slips
 from foilstudy.study.sweep.expected import costly, expected
 
 ROOT = Path(__file__).parents[1]
-FILES = sorted((ROOT / "config").glob("*.yaml"))
+FILES = sorted(set((ROOT / "config").glob("*.yaml")) - {ROOT / "config/tradeoff.yaml"})
 FOIL = {"thickness_um": [500], "reference_height_mm": [170]}
 
 

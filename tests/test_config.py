@@ -29,7 +29,7 @@ from foilstudy.model.mesh_size import expected_energy_error
 from foilstudy.present.statistics.trust import ERROR_MAX
 
 CONFIG_FOLDER = Path(__file__).parents[1] / "config"
-CONFIG_FILES = sorted(CONFIG_FOLDER.glob("*.yaml"))
+CONFIG_FILES = sorted(set(CONFIG_FOLDER.glob("*.yaml")) - {CONFIG_FOLDER / "tradeoff.yaml"})
 STUDY_FILES = [CONFIG_FOLDER / name for name in ("config.yaml", "thesis.yaml", "tiny.yaml")]
 
 

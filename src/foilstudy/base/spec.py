@@ -8,13 +8,13 @@ names the registry by `choice_field`.
 from __future__ import annotations
 
 import json
-from dataclasses import MISSING, field, fields, is_dataclass
+from dataclasses import MISSING, Field, field, fields, is_dataclass
 from typing import Any, TypeVar, get_type_hints
 
 from foilstudy.base.errors import Refusal
 from foilstudy.base.registry import Registry
 
-__all__ = ["choice_field", "dumped", "loaded", "plain", "restored"]
+__all__ = ["choice_field", "dumped", "loaded", "plain", "registry_of", "restored"]
 
 T = TypeVar("T")
 _REGISTRY = "registry"
@@ -23,6 +23,11 @@ _REGISTRY = "registry"
 def choice_field(registry: Registry, default_factory: Any = MISSING) -> Any:
     """Dataclass field whose value is an entry of a registry."""
     return field(default_factory=default_factory, metadata={_REGISTRY: registry})
+
+
+def registry_of(item: Field) -> Registry | None:
+    """The registry that a field of a specification names by `choice_field`, if any."""
+    return item.metadata.get(_REGISTRY)
 
 
 def plain(spec: Any) -> Any:
@@ -55,7 +60,7 @@ def restored(kind: type[T], content: dict[str, Any]) -> T:
         raise refusal
     values = {}
     for name, value in content.items():
-        registry = known[name].metadata.get(_REGISTRY)
+        registry = registry_of(known[name])
         if registry is not None:
             if not isinstance(value, dict) or value.get("kind") not in registry:
                 raise refusal

@@ -12,6 +12,7 @@ MODULES = (
     "elements.plan",
     "convergence.plan",
     "dynamics.plan",
+    "tradeoff.plan",
 )
 """Modules of this package that define a ``STUDY``."""
 

@@ -1,0 +1,190 @@
+"""What is changed, as data: the families of ``config/tradeoff.yaml``; cheap to import."""
+
+from __future__ import annotations
+
+from dataclasses import Field, dataclass, fields, replace
+from pathlib import Path
+from typing import Any, TypeVar
+
+import pydantic
+
+from foilstudy.base.errors import ConfigError, Refusal
+from foilstudy.base.spec import registry_of
+from foilstudy.config.sections import Section
+from foilstudy.config.sources import read_file
+
+FILE = Path(__file__).resolve().parents[4] / "config/tradeoff.yaml"
+"""Beside the sources: a package without them has no workflow, either."""
+Value = bool | int | float | str
+_METRES = {"mm": 1e-3, "um": 1e-6}
+_List = {"strict": False}
+
+DEFAULT = "default"
+"""In place of a setting: nothing is changed."""
+
+Spec = TypeVar("Spec")
+
+
+class Family(Section):
+    """Values of one setting, a panel of the charts.
+
+    Attributes
+    ----------
+    family : str
+        Title; entries of one title share a panel.
+    change : str
+        Place of the setting in the specification of the ladder: ``path.scheme.mass.safety``. A
+        length may end in its unit, ``element_size_mm``.
+    values : tuple
+        All but the default.
+    beside : str or None
+        What else is set with each of them: ``reduction.hintz_herting``, place and name.
+    held : bool
+        Whether a study has this default, so that none of the values may beat it.
+    reference : value or None
+        Of an ensemble, the one that counts as true in this family instead of the common one, which
+        has the default mesh.
+    """
+
+    family: str
+    change: str
+    values: tuple[Value, ...] = pydantic.Field(**_List)
+    beside: str | None = None
+    held: bool = True
+    reference: Value | None = None
+
+
+class Frozen(Section):
+    """Shapes of crumples, and what is changed in measuring them."""
+
+    thickness_um: tuple[int, ...] = pydantic.Field(**_List)
+    height_mm: int
+    size_mm: float
+    static: tuple[Family, ...] = pydantic.Field(**_List)
+    dynamic: tuple[Family, ...] = pydantic.Field(**_List)
+
+
+class Reference(Section):
+    """The change that makes the ensemble which counts as true."""
+
+    change: str
+    value: Value
+
+
+class Ensemble(Section):
+    """Crumples of one foil by several seeds, and what is changed in crumpling them."""
+
+    thickness_um: int
+    height_mm: int
+    size_mm: float
+    seeds: int = pydantic.Field(ge=2)
+    reference: Reference
+    settings: tuple[Family, ...] = pydantic.Field(**_List)
+
+
+class Settings(Section):
+    """All that the study changes."""
+
+    panel: tuple[Family, ...] = pydantic.Field(**_List)
+    frozen: Frozen
+    ensembles: tuple[Ensemble, ...] = pydantic.Field(**_List)
+
+
+@dataclass(frozen=True)
+class Point:
+    """One setting of one ladder; what makes the foil is None where the ladder has its own.
+
+    Attributes
+    ----------
+    thickness_um, height_mm, size_mm, seeds
+        Of the foil, its coarsest mesh, and how many crumples there are.
+    change, value, beside
+        See `Family`.
+    """
+
+    thickness_um: int | None = None
+    height_mm: int | None = None
+    size_mm: float | None = None
+    seeds: int | None = None
+    change: str = DEFAULT
+    value: Value | None = None
+    beside: str | None = None
+
+    def applied(self, spec: Spec) -> Spec:
+        """The specification of the ladder with this setting changed."""
+        if self.beside is not None:
+            place, _, name = self.beside.rpartition(".")
+            spec = changed(spec, place, name)
+        return spec if self.change == DEFAULT else changed(spec, self.change, self.value)
+
+    @property
+    def default(self) -> Point:
+        """The point of the same ladder at which nothing is changed."""
+        return replace(self, change=DEFAULT, value=None, beside=None)
+
+    def at(self, family: Family, value: Value) -> Point:
+        """With one value of a family."""
+        return replace(self, change=family.change, beside=family.beside, value=value)
+
+    def points(self, family: Family) -> tuple[Point, ...]:
+        """Of all values of a family."""
+        return tuple(self.at(family, value) for value in family.values)
+
+
+def read_settings(path: Path) -> Settings:
+    """The settings in a file.
+
+    Raises
+    ------
+    ConfigError
+        If it cannot be read or is of another form.
+    """
+    try:
+        return Settings.model_validate(read_file(path))
+    except pydantic.ValidationError as error:
+        first = error.errors()[0]
+        place = ".".join(map(str, first["loc"]))
+        raise ConfigError(f"{path}: {place}: {first['msg']}; see the entries beside it.") from None
+
+
+def changed(spec: Spec, place: str, value: Value) -> Spec:
+    """A specification with one of its values replaced.
+
+    A name in the place of a choice stands for that entry of its registry, with its own defaults.
+
+    Raises
+    ------
+    Refusal
+        If there is no such place or entry.
+    """
+    name, _, rest = place.partition(".")
+    item, factor = _field(spec, name)
+    if rest:
+        return replace(spec, **{item.name: changed(getattr(spec, item.name), rest, value)})
+    if registry := registry_of(item):
+        value = registry[value]()
+    return replace(spec, **{item.name: value if factor is None else factor * value})
+
+
+def value_at(spec: Any, place: str) -> Value:
+    """The value that `changed` would replace, in the unit of the place."""
+    for name in place.split("."):
+        item, factor = _field(spec, name)
+        spec = getattr(spec, item.name)
+    if registry_of(item):
+        return spec.kind
+    return spec if factor is None else round(spec / factor, 9)
+
+
+def _field(spec: Any, name: str) -> tuple[Field, float | None]:
+    """Field of a specification, and the unit in which a name gives its value."""
+    known = {item.name: item for item in fields(spec)}
+    stem, _, unit = name.rpartition("_")
+    if name not in known and stem in known and unit in _METRES:
+        return known[stem], _METRES[unit]
+    if name not in known:
+        raise Refusal(
+            f"config/tradeoff.yaml: {type(spec).__name__} has no {name!r}; use one of "
+            f"{', '.join(sorted(known))}."
+        )
+    return known[name], None
