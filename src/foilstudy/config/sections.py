@@ -258,7 +258,7 @@ class Relaxation(Section):
     switch_residual: float = unit_field(
         "1",
         "Residual at which relaxation gives way to minimisation with the tangent.",
-        1e-4,
+        1e-3,
         gt=0,
         lt=1,
     )

@@ -91,8 +91,8 @@ class SettleOptions:
         Largest norm of the force on the free control points relative to that on the rings.
     switch_residual : float
         Residual at which relaxation gives way to the minimisation, a third of it in every further
-        round. From 1e-4 the minimisation ended in the basin of the relaxation in every crumple
-        tried, from 1e-3 not always, though one tangent is nearly always enough there too.
+        round. From 1e-3 on the minimisation of ten crumples of 500 um ended where the relaxation
+        went, and one tangent was enough; from 1e-2 it took up to four (docs/tradeoff.md).
     relaxation_steps_max : int
         Steps of relaxation, over all rounds.
     hessians_per_round : int
@@ -105,7 +105,7 @@ class SettleOptions:
     """
 
     residual_tolerance: float = 1e-8
-    switch_residual: float = 1e-4
+    switch_residual: float = 1e-3
     relaxation_steps_max: int = 14_000
     hessians_per_round: int = 3
     hessians_last: int = 60
