@@ -7,6 +7,7 @@ import shutil
 import signal
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
@@ -418,8 +419,11 @@ def test_an_interrupted_round_goes_on_to_the_same_cube(made, tmp_path):
         if "round 0" in line:
             break
     os.killpg(process.pid, signal.SIGINT)
-    process.stderr.read()
-    assert process.wait(timeout=60) == 1
+    try:
+        assert process.wait(timeout=120) == 1
+    finally:
+        with suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
     before = records(tmp_path)
     assert 24 <= len(before) < 32
     run = snakemake(tmp_path, tight, "-j2", CUBE)

@@ -99,6 +99,10 @@ def _realisation(study: StudyConfig, results: Path, cell: Cell) -> Generator[Sta
     return _Made(digests, response.get(_STIFFNESSES))
 
 
+class _NotMade(Exception):
+    """A realisation that a round waits for."""
+
+
 def _rounds(
     study: StudyConfig, results: Path, made: Mapping[Cell, _Made]
 ) -> Generator[Stale, None, tuple[Cell, ...]]:
@@ -108,12 +112,12 @@ def _rounds(
 
     def values_of(cell: Cell) -> Values:
         if (stiffnesses := made[cell].stiffnesses) is None:
-            raise LookupError(cell)
+            raise _NotMade
         return stiffnesses
 
     texts: list[str] = []
     last: tuple[Cell, ...] = ()
-    with suppress(LookupError):
+    with suppress(_NotMade):
         for each in rounds(study, values_of):
             texts.append(each.text())
             if each.is_last:
