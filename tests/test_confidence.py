@@ -141,6 +141,17 @@ def test_the_page_says_whether_the_wish_was_met(tmp_path):
     assert takes["wish_takes"].max() > 100
 
 
+def test_a_configuration_without_a_result_is_named():
+    verdicts = {(0, 0, seed): FAILED for seed in range(6)}
+    cube = make_cube((50.0, 500.0), (135.0, 170.0), cv=ten_percent, verdicts=verdicts)
+    cube.attrs["config"] += "  confidence_percent: 20\n"
+    cube.attrs["config"] = cube.attrs["config"].replace(
+        "report: {title: Synthetic study}\n", "report:\n"
+    )
+    (text,) = wish_findings(stiffness_summary(cube), None)
+    assert text.endswith("of 3 of 4 configurations. Not: 50 µm at 3.85 % (n = 0).")
+
+
 def page_of(cube, folder):
     """Text of the page of a cube."""
     files = StudyFiles(write_cube(cube, folder / "cube.nc"))

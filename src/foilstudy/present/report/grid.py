@@ -146,12 +146,8 @@ def wish_findings(summary: pd.DataFrame, most: int | None) -> list[str]:
     )
     if unmet.empty:
         return [f"{text}."]
-    cases = [
-        f"{nominal(row.thickness_um)} µm at {nominal(row.overlength_percent)} % (n = {row.best_n}, "
-        f"±{percent(row.best_half_width)} {row.direction}ly; the wish takes "
-        f"{_about(row.wish_takes)})"
-        for row in unmet.sort_values("best_half_width", ascending=False).itertuples()
-    ]
+    ordered = unmet.sort_values("best_half_width", ascending=False)
+    cases = [_missed(row) for row in ordered.itertuples()]
     left = len(cases) - CASES_SHOWN
     named = "; ".join(cases[:CASES_SHOWN]) + (
         f"; and {left} more, see the list" if left > 0 else ""
@@ -160,8 +156,15 @@ def wish_findings(summary: pd.DataFrame, most: int | None) -> list[str]:
     return [f"{text}{limit}. Not: {named}."]
 
 
-def _about(count: float) -> str:
-    return f"about {number(count, 2)}" if math.isfinite(count) else "more than can be said"
+def _missed(row) -> str:
+    """A configuration that is not known as well as wished, and how many realisations that takes."""
+    case = f"{nominal(row.thickness_um)} µm at {nominal(row.overlength_percent)} %"
+    if not math.isfinite(row.best_half_width):
+        return f"{case} (n = {row.best_n})"
+    return (
+        f"{case} (n = {row.best_n}, ±{percent(row.best_half_width)} {row.direction}ly; the wish "
+        f"takes about {number(row.wish_takes, 2)})"
+    )
 
 
 def sureness(summary: pd.DataFrame) -> list[str]:
