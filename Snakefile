@@ -30,6 +30,7 @@ if not workflow.configfiles:
 
 
 include: "workflow/rules/stale.smk"
+include: "workflow/rules/rounds.smk"
 include: "workflow/rules/realisations.smk"
 include: "workflow/rules/results.smk"
 include: "workflow/rules/export.smk"

@@ -1,11 +1,9 @@
 """The Snakemake workflow: what it plans, what it refuses, what it makes again."""
 
 import os
-import re
 import shutil
 import signal
 import subprocess
-import sys
 import time
 from pathlib import Path
 
@@ -15,6 +13,7 @@ import numpy as np
 import pytest
 import xarray as xr
 import yaml
+from runs import ROOT, command, heed_interrupts, plan, snakemake
 from small_study import SECTIONS, compute, sections_with
 
 from foilstudy.base.record import read_record
@@ -23,47 +22,11 @@ from foilstudy.export.formats import FORMATS
 from foilstudy.model.materials import MATERIALS
 from foilstudy.present.figures import FIGURES
 
-ROOT = Path(__file__).parents[1]
 TINY = yaml.safe_load((ROOT / "config/tiny.yaml").read_text(encoding="utf-8"))
 FEP = {key: getattr(MATERIALS["FEP"], key) for key in CONSTANTS}
-SNAKEMAKE = str(Path(sys.executable).with_name("snakemake"))
 # What differs between two runs of one study, and nothing else may.
 COSTS = ("seconds_crumple", "seconds_static", "seconds_dynamic", "peak_memory")
 OCCASION = ("created", "machine")
-
-
-def command(folder, config, *options):
-    """Snakemake on the config, which is written into the folder, as is everything it makes."""
-    path = folder / "study.yaml"
-    path.write_text(yaml.safe_dump(config), encoding="utf-8")
-    return [
-        SNAKEMAKE,
-        *("--snakefile", str(ROOT / "Snakefile"), "--directory", str(folder)),
-        *("--configfile", str(path), *options),
-    ]
-
-
-def heed_interrupts():
-    """Of a shell's background job, which these tests may be, children would ignore them."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-
-
-def snakemake(folder, config, *options):
-    return subprocess.run(
-        command(folder, config, *options), capture_output=True, text=True, cwd=ROOT, check=False
-    )
-
-
-def plan(folder, config):
-    """Number of jobs per rule that a run would start; nothing where all is up to date."""
-    run = snakemake(folder, config, "--dry-run")
-    assert run.returncode == 0, run.stderr
-    header = re.search(r"^\d+ jobs: (.*)$", run.stdout, re.MULTILINE)
-    if header is None:
-        assert "Nothing to be done" in run.stdout
-        return {}
-    jobs = (part.split(" ") for part in header[1].split(", "))
-    return {rule: int(count) for count, rule in jobs}
 
 
 def changed(**sections):

@@ -8,6 +8,7 @@ still in the log file under ``.snakemake/log``. ``workflow/profiles/default`` se
 
 from __future__ import annotations
 
+import asyncio
 import errno
 import logging
 import re
@@ -31,6 +32,8 @@ __all__ = ["LogHandler"]
 LOG_LINES_SHOWN = 15
 JOBS_BEFORE_ESTIMATE = 4
 REASON_LENGTH = 80
+PATIENCE_S = 0.05
+"""After which an interrupt that came in the wrong moment comes again."""
 # Messages without an event that a user wants to see all the same.
 _WORTH_SHOWING = (
     "Accuracy",
@@ -123,6 +126,13 @@ class LogHandler(LogHandlerBase):
                 # it would print the tracebacks of what Snakemake was awaiting
                 logging.getLogger("asyncio").setLevel(logging.CRITICAL + 1)
             self._stopping = True
+            if _awaits_something():
+                # there, an exception would leave Snakemake waiting for good
+                main = threading.main_thread().ident
+                timer = threading.Timer(PATIENCE_S, signal.pthread_kill, (main, number))
+                timer.daemon = True
+                timer.start()
+                return None
             return interrupt(number, frame)
 
         def show_others(kind, error, traceback):
@@ -180,6 +190,15 @@ class LogHandler(LogHandlerBase):
         self._write(f"FAILED {name}; its log {', '.join(logs)} {ends}")
         for line in lines:
             self._write(f"    {line}")
+
+
+def _awaits_something() -> bool:
+    """Whether an event loop runs in this thread."""
+    try:
+        asyncio.get_running_loop()
+    except RuntimeError:
+        return False
+    return True
 
 
 def _clock(seconds: float) -> str:

@@ -44,7 +44,6 @@ except ConfigError as problem:
 RESULTS = f"results/{STUDY.study.name}"
 LOGS = f"{RESULTS}/logs"
 BENCHMARKS = f"{RESULTS}/benchmarks"
-CELLS = STUDY.cells()
 COST = expected(STUDY)
 MEMORY_MB = {
     (each.thickness_um, each.reference_height_mm): each.most_memory_mb
@@ -63,6 +62,10 @@ os.environ.pop("FOILSTUDY_WORKER", None)
 
 CELL = "{thickness}/{overlength}/{seed}"
 CELL_FLAT = "{thickness}_{overlength}_{seed}"
+CRUMPLE = f"{RESULTS}/realisations/{CELL}/crumple.nc"
+RESPONSE = f"{RESULTS}/realisations/{CELL}/response.nc"
+REFINED = f"{RESULTS}/realisations/{CELL}/refined.nc"
+EXPORT = f"{RESULTS}/realisations/{CELL}/export"
 
 
 wildcard_constraints:
@@ -75,11 +78,11 @@ wildcard_constraints:
 # Snakemake takes what stands in braces for a wildcard.
 
 
-def cell_paths(pattern):
-    """The pattern's path for every realisation of the sweep, in the order of `CELLS`."""
+def cell_paths(pattern, cells):
+    """The pattern's path for each of some realisations."""
     return [
         pattern.format(thickness=c.thickness_id, overlength=c.overlength_id, seed=c.seed)
-        for c in CELLS
+        for c in cells
     ]
 
 

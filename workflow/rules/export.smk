@@ -1,8 +1,6 @@
 """Every realisation in the formats of other tools, where `export.formats` asks for some."""
 
-EXPORTS = []
-if STUDY.export.formats:
-    EXPORTS = cell_paths(f"{RESULTS}/realisations/{CELL}/export")
+EXPORTS = of_all(EXPORT) if STUDY.export.formats else []
 
 
 rule export:
@@ -10,7 +8,7 @@ rule export:
         rules.crumple.output,
     # A folder, as a realisation that cannot be exported leaves its reason alone.
     output:
-        directory(f"{RESULTS}/realisations/{CELL}/export"),
+        directory(EXPORT),
     params:
         task=response_task,
         formats=list(STUDY.export.formats),

@@ -5,7 +5,7 @@ rule crumple:
     input:
         lambda wildcards: make_stale_again(RESULTS),
     output:
-        f"{RESULTS}/realisations/{CELL}/crumple.nc",
+        CRUMPLE,
     params:
         task=crumple_task,
     log:
@@ -24,7 +24,7 @@ rule response:
     input:
         rules.crumple.output,
     output:
-        f"{RESULTS}/realisations/{CELL}/response.nc",
+        RESPONSE,
     params:
         task=response_task,
     # Finished realisations first: an interrupted study then holds whole ones.
@@ -45,7 +45,7 @@ rule refine:
     input:
         rules.crumple.output,
     output:
-        f"{RESULTS}/realisations/{CELL}/refined.nc",
+        REFINED,
     params:
         task=refine_task,
     priority: 1

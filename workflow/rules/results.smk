@@ -2,21 +2,15 @@
 
 from foilstudy.present.statistics.tables import TABLES
 
-CRUMPLES = cell_paths(f"{RESULTS}/realisations/{CELL}/crumple.nc")
-RESPONSES = cell_paths(f"{RESULTS}/realisations/{CELL}/response.nc")
-REFINED = []
-if STUDY.stiffness.relaxed_refinements:
-    REFINED = cell_paths(f"{RESULTS}/realisations/{CELL}/refined.nc")
-
 FIGURE_FILES = expand(f"{RESULTS}/figures/{{name}}.{{kind}}", name=FIGURES, kind=["png", "svg"])
 
 
 rule cube:
     input:
         cylinder=rules.cylinder.output,
-        crumples=CRUMPLES,
-        responses=RESPONSES,
-        refined=REFINED,
+        crumples=of_all(CRUMPLE),
+        responses=of_all(RESPONSE),
+        refined=of_all(REFINED) if STUDY.stiffness.relaxed_refinements else [],
     output:
         f"{RESULTS}/cube.nc",
     params:
@@ -61,16 +55,16 @@ rule tables:
 
 
 def figure_input(need, files):
-    """The files, as a function of wildcards, where the figure is drawn from them."""
-    return lambda wildcards: files if need in FIGURES[wildcards.figure].needs else []
+    """What an input function returns, where the figure is drawn from that."""
+    return lambda wildcards: files(wildcards) if need in FIGURES[wildcards.figure].needs else []
 
 
 # The shapes need no cube and are the longest to draw: they fill the cores while responses end.
 rule figure:
     input:
-        cube=figure_input("cube", rules.cube.output),
-        crumples=figure_input("crumple_paths", CRUMPLES),
-        responses=figure_input("response_paths", RESPONSES),
+        cube=figure_input("cube", lambda wildcards: rules.cube.output),
+        crumples=figure_input("crumple_paths", of_all(CRUMPLE)),
+        responses=figure_input("response_paths", of_all(RESPONSE)),
     output:
         report(
             f"{RESULTS}/figures/{{figure}}.png",
@@ -101,8 +95,8 @@ rule report:
         cube=rules.cube.output,
         tables=rules.tables.output,
         figures=FIGURE_FILES,
-        crumples=CRUMPLES,
-        responses=RESPONSES,
+        crumples=of_all(CRUMPLE),
+        responses=of_all(RESPONSE),
     output:
         report(
             f"{RESULTS}/report.html",

@@ -47,7 +47,7 @@ def check(file: Path, /, *, cores: Cores = 2) -> None:
     cost = expected(study)
     lines = [f"{file}: no problem; results go to results/{study.study.name}.", ""]
     lines += (f"{name:10} {text}" for name, text in _resolved(study))
-    lines += ["", *_table(study, cost), "", *_summary(cost, cores)]
+    lines += ["", *_table(study, cost), "", *_summary(cost, cores), *_least(study, cores)]
     lines += ["", *found] if (found := unresolved(study)) else []
     if slips := [*likely_slips(study), *costly(cost)]:
         lines += ["", "Possible, but most likely a slip:", *slips]
@@ -68,6 +68,7 @@ def _resolved(study: StudyConfig) -> Iterator[tuple[str, str]]:
     yield "accuracy", accuracy_words(study.model_dump())
     yield "heights", ", ".join(f"{height:g}" for height in study.reference_heights_mm) + " mm"
     yield "overlength", ", ".join(f"{share:.3g}" for share in study.overlengths_percent) + " %"
+    yield "number", _realisations(study)
     length = imperfection.correlation_length_mm
     correlated = f", correlated over {length:g} mm" if length else ""
     mesh, relaxation, dynamics = study.mesh, study.relaxation, study.dynamics
@@ -104,6 +105,17 @@ def _ramp(study: StudyConfig) -> str:
     return _range(min(steps), max(steps))
 
 
+def _realisations(study: StudyConfig) -> str:
+    sweep = study.sweep
+    each = f"for each of {plural(len(study.cells()) // len(study.seeds), 'configuration')}"
+    if not sweep.in_rounds:
+        return f"{sweep.realisations} {each}"
+    return (
+        f"auto, {study.sweep.fewest} to {sweep.most} {each}, until the 95 % interval of the mean "
+        f"stiffness is within {study.report.confidence_percent:g} % of it"
+    )
+
+
 def _table(study: StudyConfig, cost: Expected) -> Iterator[str]:
     """One line for each thickness, its heights as ranges."""
     by_thickness = groupby(cost.configurations, lambda each: each.thickness_um)
@@ -134,6 +146,20 @@ def _range(first: object, last: object) -> str:
 
 def _two_digits(value: float) -> str:
     return f"{float(f'{value:.2g}'):g}"
+
+
+def _least(study: StudyConfig, cores: int) -> Iterator[str]:
+    """What the first round costs, where all the above is of as many realisations as may be."""
+    from foilstudy.study.sweep.expected import expected
+
+    if study.sweep.in_rounds:
+        cost = expected(study.with_fewest())
+        yield (
+            f"With {study.sweep.fewest} realisations of each configuration about "
+            f"{duration(cost.processor_seconds, 2)} of processor time, "
+            f"{duration(cost.wall_seconds(cores), 2)} on {plural(cores, 'free core')}: the least, "
+            "the above is the most."
+        )
 
 
 def _summary(cost: Expected, cores: int) -> Iterator[str]:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Any
 
-from pydantic import Field, PlainSerializer, WithJsonSchema, WrapValidator, model_validator
+from pydantic import model_validator
 
 from foilstudy.base.numerals import times
 from foilstudy.model.foil import SMOOTH_LENGTH_MIN
@@ -16,7 +16,7 @@ from foilstudy.model.shell.elements import ELEMENTS
 
 from .accuracy import AUTO, STANDARD
 from .choices import choice_of
-from .sections import Section, registry_field, tier_words, unit_field
+from .sections import Section, auto_or, registry_field, tier_words, unit_field
 
 # Fewer elements cannot carry the first buckling waves.
 ELEMENTS_AROUND_MIN = 24
@@ -25,26 +25,10 @@ ELEMENTS_ALONG_MIN = 8
 ELEMENTS_MAX = 1_000_000
 
 
-def _size_or_auto(value: Any, as_number: Callable[[Any], float]) -> float | str:
-    return AUTO if value == AUTO else as_number(value)
-
-
-# One type with a word beside the numbers: of a union, Pydantic would report every branch.
-ElementSize = Annotated[
-    float,
-    Field(ge=1e-4, le=1_000),
-    WrapValidator(_size_or_auto),
-    PlainSerializer(lambda value: value),
-    WithJsonSchema(
-        {"anyOf": [{"type": "number", "minimum": 1e-4, "maximum": 1000}, {"const": AUTO}]}
-    ),
-]
-
-
 class Mesh(Section):
     """Discretisation of the foil."""
 
-    element_size_mm: ElementSize = unit_field(
+    element_size_mm: auto_or(float, 1e-4, 1000) = unit_field(
         "mm",
         "Edge length of the elements; at least 24 fit around the cylinder and 8 along the "
         "shortest one. `auto`: for each thickness the largest that keeps `energy_error_percent`.",

@@ -17,6 +17,8 @@ from .export import Export
 from .isolation import Isolation
 from .mesh import Mesh, MeshUse, mesh_problems, refinements_that_fit
 from .sections import (
+    AUTO,
+    CONFIDENCE_DEFAULT_PERCENT,
     HEIGHT_MAX_MM,
     Dynamics,
     Imperfection,
@@ -125,7 +127,9 @@ class StudyConfig(Section):
     report: Report = Field(default_factory=Report, description="Report page.")
 
     def __repr__(self) -> str:
-        counts = len(self.thicknesses_um), len(self.reference_heights_mm), self.sweep.realisations
+        sweep = self.sweep
+        realisations = f"at most {sweep.most}" if sweep.in_rounds else sweep.realisations
+        counts = len(self.thicknesses_um), len(self.reference_heights_mm), realisations
         return "<StudyConfig: {}, {} thicknesses x {} heights x {} realisations>".format(
             self.study.name, *counts
         )
@@ -150,6 +154,19 @@ class StudyConfig(Section):
     def tier(self) -> Accuracy:
         """What the word `accuracy` stands for."""
         return ACCURACIES[self.accuracy]
+
+    @model_validator(mode="before")
+    @classmethod
+    def _default_confidence(cls, data: Any) -> Any:
+        """What ends the rounds is written down, not only assumed."""
+        if not isinstance(data, Mapping):
+            return data
+        sweep, report = data.get("sweep"), data.get("report", {})
+        if not (isinstance(sweep, Mapping) and isinstance(report, Mapping)):
+            return data  # wrong, or whole already
+        if sweep.get("realisations") != AUTO or report.get("confidence_percent") is not None:
+            return data
+        return dict(data) | {"report": {**report, "confidence_percent": CONFIDENCE_DEFAULT_PERCENT}}
 
     @model_validator(mode="after")
     def _check_across_sections(self) -> StudyConfig:
@@ -192,8 +209,9 @@ class StudyConfig(Section):
     def _size_problems(self) -> Iterator[str]:
         number = len(self.thicknesses_um) * len(self.reference_heights_mm) * len(self.seeds)
         if number > REALISATIONS_MAX:
+            key = "sweep.realisations_max" if self.sweep.in_rounds else "sweep.realisations"
             yield (
-                f"sweep.realisations is {self.sweep.realisations}, which makes {number} "
+                f"{key} is {self.sweep.most}, which makes {number} "
                 f"realisations of all thicknesses and heights (at most {REALISATIONS_MAX}); use "
                 "fewer, or shorter lists."
             )
@@ -265,11 +283,19 @@ class StudyConfig(Section):
 
     @property
     def seeds(self) -> tuple[int, ...]:
-        """Seeds of the realisations: 0, 1, 2, ..."""
-        return tuple(range(self.sweep.realisations))
+        """Seeds of the realisations: 0, 1, 2, ...; where these grow in rounds, of all possible."""
+        return tuple(range(self.sweep.most))
+
+    def with_fewest(self) -> StudyConfig:
+        """The same study with a fixed number of realisations, those of the first round."""
+        update = {"realisations": self.sweep.fewest, "realisations_max": None}
+        return self.model_copy(update={"sweep": self.sweep.model_copy(update=update)})
 
     def cells(self) -> tuple[Cell, ...]:
-        """All realisations, ordered by thickness, overlength and seed."""
+        """All realisations, ordered by thickness, overlength and seed.
+
+        Where they grow in rounds, all that there may be; see `foilstudy.study.sweep.rounds`.
+        """
         return tuple(
             Cell(thickness, height, percent, seed)
             for thickness in self.thicknesses_um
@@ -348,7 +374,10 @@ class StudyConfig(Section):
 
     def cylinder_task(self) -> str:
         """Everything that decides the bounds of the perfect cylinder, as JSON."""
-        return self.model_dump_json(include={"sheet", "material", "sweep", "mesh"})
+        grid = {"thickness_um", "reference_height_mm", "overlength_percent"}
+        return self.model_dump_json(
+            include={"sheet": True, "material": True, "sweep": grid, "mesh": True}
+        )
 
     def to_yaml(self) -> str:
         """Full validated configuration as YAML, defaults included, for provenance."""

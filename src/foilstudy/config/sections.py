@@ -7,10 +7,18 @@ path, because the reader of the message looks at a YAML file, not at this code.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    PlainSerializer,
+    WithJsonSchema,
+    WrapValidator,
+    model_validator,
+)
 
 from foilstudy.base.registry import Registry, did_you_mean
 from foilstudy.measure.choices import REDUCTIONS, STRESS_REMOVALS, STRUCTURAL_DAMPINGS
@@ -19,10 +27,14 @@ from foilstudy.model.materials import MATERIALS
 from foilstudy.model.shell.material import LAWS
 from foilstudy.solve.choices import DAMPINGS, MASSES, PATHS, SEARCHES
 
-from .accuracy import ACCURACIES, STANDARD
+from .accuracy import ACCURACIES, AUTO, STANDARD
 from .choices import choice_of
 
 CORRELATION_LENGTH_DEFAULT_MM = 15.0
+FIRST_ROUND = 6
+"""Realisations that all begin with: the scatter of fewer says little about how many it takes."""
+REALISATIONS_MAX_DEFAULT = 24
+CONFIDENCE_DEFAULT_PERCENT = 20.0
 RAMP_STEPS_MIN = 100
 """In fewer the foil cannot follow the ring."""
 TEXT_MAX = 200
@@ -46,6 +58,26 @@ def tier_words(path: str) -> str:
     """What the tiers make of a key, for its description."""
     values = ", ".join(f"{tier.values[path]:g} ({name})" for name, tier in ACCURACIES.items())
     return f"Decided by `accuracy`: {values}."
+
+
+def auto_or(kind: type, least: float, most: float) -> Any:
+    """Type of a field whose value is a number or the word `auto`.
+
+    One type with a word beside the numbers: of a union, Pydantic would report every branch.
+    """
+
+    def number_or_auto(value: Any, as_number: Callable[[Any], Any]) -> Any:
+        return AUTO if value == AUTO else as_number(value)
+
+    name = "integer" if kind is int else "number"
+    schema = {"anyOf": [{"type": name, "minimum": least, "maximum": most}, {"const": AUTO}]}
+    return Annotated[
+        kind,
+        Field(ge=least, le=most),
+        WrapValidator(number_or_auto),
+        PlainSerializer(lambda value: value),
+        WithJsonSchema(schema),
+    ]
 
 
 class Section(BaseModel):
@@ -163,13 +195,55 @@ class Sweep(Section):
         None,
         **_LIST,
     )
-    realisations: int = unit_field(
+    realisations: auto_or(int, 1, 10_000) = unit_field(
         "1",
-        "Random imperfections per thickness and height; their seeds are 0, 1, 2, ...",
+        "Random imperfections per thickness and height; their seeds are 0, 1, 2, ... `auto`: for "
+        "each thickness and height as many as `report.confidence_percent` takes, in rounds.",
         6,
-        ge=1,
+    )
+    realisations_max: int | None = unit_field(
+        "1",
+        "Most realisations of a thickness and height "
+        f"({REALISATIONS_MAX_DEFAULT} if left out); only with `realisations: auto`.",
+        None,
+        ge=2,
         le=10_000,
     )
+
+    @property
+    def in_rounds(self) -> bool:
+        """Whether the number of realisations follows from their scatter."""
+        return self.realisations == AUTO
+
+    @property
+    def fewest(self) -> int:
+        """Smallest number of realisations that a thickness and height can have."""
+        return min(FIRST_ROUND, self.most) if self.in_rounds else self.realisations
+
+    @property
+    def most(self) -> int:
+        """Largest number of realisations that a thickness and height can have."""
+        return self.realisations_max if self.in_rounds else self.realisations
+
+    @model_validator(mode="before")
+    @classmethod
+    def _default_most(cls, data: Any) -> Any:
+        if (
+            isinstance(data, Mapping)
+            and data.get("realisations") == AUTO
+            and data.get("realisations_max") is None
+        ):
+            return dict(data) | {"realisations_max": REALISATIONS_MAX_DEFAULT}
+        return data
+
+    @model_validator(mode="after")
+    def _most_only_if_in_rounds(self) -> Sweep:
+        if not self.in_rounds and self.realisations_max is not None:
+            raise ValueError(
+                f"sweep.realisations_max is given, but sweep.realisations is {self.realisations}, "
+                "which settles their number; remove one of them, or set sweep.realisations: auto."
+            )
+        return self
 
     @model_validator(mode="after")
     def _exactly_one_height(self) -> Sweep:
@@ -424,3 +498,12 @@ class Report(Section):
     """The report page."""
 
     title: str = unit_field("text", "Title of the report.", "Stiffness of crumpled foil", **TEXT)
+    confidence_percent: float | None = unit_field(
+        "%",
+        "Half width of the 95 % interval of the mean stiffness, over that mean, that is wished for "
+        f"at every thickness and height; with `sweep.realisations: auto` "
+        f"{CONFIDENCE_DEFAULT_PERCENT:g} if left out.",
+        None,
+        ge=0.1,
+        le=1000,
+    )

@@ -12,6 +12,7 @@ import numpy as np
 from foilstudy.base.errors import Refusal
 from foilstudy.base.record import read_attributes
 from foilstudy.config.model import overlength_id, thickness_id
+from foilstudy.present.statistics.cells import realised
 
 CELL = ("thickness", "overlength", "seed")
 _UNKNOWN = "in a cube of a release before 0.4"
@@ -86,7 +87,7 @@ class StudyFiles:
 
     def _gathered(self) -> Iterator[Path | None]:
         """Crumples of the realisations of the cube; None for one that is not as gathered."""
-        for at in np.ndindex(self.cube["status"].shape):
+        for at in np.argwhere(realised(self.cube).to_numpy()):
             cell = self.cube.isel(dict(zip(CELL, at, strict=True)))
             thickness, height = float(cell["thickness"]), float(cell["reference_height"])
             place = thickness_id(thickness), overlength_id(height), str(int(cell["seed"]))

@@ -9,6 +9,7 @@ import xarray as xr
 from foilstudy.base.numerals import number, plural
 from foilstudy.config.sections import Relaxation
 from foilstudy.present.report.spread import Spread
+from foilstudy.present.statistics.cells import realised
 
 
 @dataclass(frozen=True)
@@ -92,6 +93,7 @@ def assess_equilibrium(cube: xr.Dataset, config: Mapping) -> Equilibrium:
     settled = (residual <= tolerance) & (eigenvalues == 0)
     steps = _variable(cube, "steps")
     newton_steps = _variable(cube, "newton_steps")
+    there = realised(cube)
     rows = []
     for thickness in cube["thickness"].values:
         at = {"thickness": thickness}
@@ -100,7 +102,7 @@ def assess_equilibrium(cube: xr.Dataset, config: Mapping) -> Equilibrium:
             rows.append(
                 Settling(
                     float(thickness),
-                    residual.sel(at).size,
+                    int(there.sel(at).sum()),
                     int(settled.sel(at).sum()),
                     residuals.highest,
                     Spread.of(steps.sel(at) - _ramp_steps(config, thickness)),
@@ -108,7 +110,7 @@ def assess_equilibrium(cube: xr.Dataset, config: Mapping) -> Equilibrium:
                 )
             )
     unstable = int((eigenvalues > 0).sum()) if np.isfinite(eigenvalues).any() else None
-    return Equilibrium(float(tolerance), unstable, tuple(rows), residual.size)
+    return Equilibrium(float(tolerance), unstable, tuple(rows), int(there.sum()))
 
 
 def equilibrium_findings(equilibrium: Equilibrium) -> list[str]:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import pandas as pd
 
-from foilstudy.base.numerals import percent
+from foilstudy.base.numerals import nominal, number, percent, plural
 from foilstudy.present.report.findings import mesh_words
 from foilstudy.present.report.spread import Spread
 from foilstudy.present.statistics.summary import best_mean
+
+CASES_SHOWN = 3
+"""Configurations that a sentence names."""
 
 
 @dataclass(frozen=True)
@@ -27,6 +31,13 @@ class Cell:
     n : int
         Realisations.
     trusted : bool
+    low, high : float
+        95 % interval of `mean`, N/m; NaN of a single value.
+    half_width : float
+        Half of it over the mean; infinite of a single value.
+    takes : float
+        Realisations that the scatter takes for the half width that the study wished for; NaN where
+        it did not.
     """
 
     overlength_percent: float
@@ -35,6 +46,10 @@ class Cell:
     mesh_error: float
     n: int
     trusted: bool
+    low: float
+    high: float
+    half_width: float
+    takes: float
 
 
 @dataclass(frozen=True)
@@ -56,6 +71,11 @@ class Grid:
     def counts_differ(self) -> bool:
         """Whether the configurations have different numbers of realisations."""
         return len({cell.n for row in self.rows for cell in row.cells}) > 1
+
+    @property
+    def wished(self) -> bool:
+        """Whether the study wished for a half width of the intervals."""
+        return any(not math.isnan(cell.takes) for row in self.rows for cell in row.cells)
 
     @property
     def overlengths_percent(self) -> list[float]:
@@ -86,6 +106,10 @@ def _cell(row) -> Cell:
         float(row.mesh_error_share_max),
         int(row.n),
         bool(row.trusted),
+        float(row.best_low),
+        float(row.best_high),
+        float(row.best_half_width),
+        float(row.wish_takes),
     )
 
 
@@ -96,6 +120,50 @@ def grid_caption(summary: pd.DataFrame) -> str:
     return (
         f"Mean stiffness of n = {n} realisations {mesh_words(summary)}; scatter: standard "
         "deviation over mean; mesh: largest stated mesh error of a realisation over its value."
+    )
+
+
+def wish_findings(summary: pd.DataFrame, most: int | None) -> list[str]:
+    """Say whether the means are known as well as the study wished; nothing where it did not.
+
+    Parameters
+    ----------
+    summary : pandas.DataFrame
+        ``stiffness_summary.csv``.
+    most : int or None
+        Realisations that a configuration could have, where their number grew with their scatter.
+    """
+    wish = summary["wished_half_width"].iloc[0]
+    if not math.isfinite(wish):
+        return []
+    worst = summary.loc[
+        summary.groupby(["thickness_um", "overlength_percent"])["best_half_width"].idxmax()
+    ]
+    unmet = worst[~(worst["best_half_width"] <= wish)]
+    text = (
+        f"The 95 % interval of the mean is at most ±{nominal(100 * wish)} % wide, as wished, in "
+        f"both directions of {len(worst) - len(unmet)} of {plural(len(worst), 'configuration')}"
+    )
+    if unmet.empty:
+        return [f"{text}."]
+    ordered = unmet.sort_values("best_half_width", ascending=False)
+    cases = [_missed(row) for row in ordered.itertuples()]
+    left = len(cases) - CASES_SHOWN
+    named = "; ".join(cases[:CASES_SHOWN]) + (
+        f"; and {left} more, see the list" if left > 0 else ""
+    )
+    limit = f" with at most {most} realisations each" if most else ""
+    return [f"{text}{limit}. Not: {named}."]
+
+
+def _missed(row) -> str:
+    """A configuration that is not known as well as wished, and how many realisations that takes."""
+    case = f"{nominal(row.thickness_um)} µm at {nominal(row.overlength_percent)} %"
+    if not math.isfinite(row.best_half_width):
+        return f"{case} (n = {row.best_n})"
+    return (
+        f"{case} (n = {row.best_n}, ±{percent(row.best_half_width)} {row.direction}ly; the wish "
+        f"takes about {number(row.wish_takes, 2)})"
     )
 
 

@@ -1,8 +1,8 @@
 """Whether the study can be trusted: verdicts, limits of the model and costs."""
 
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
-from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +13,7 @@ from foilstudy.base.outcome import STATUSES
 from foilstudy.config.model import overlength_id, thickness_id
 from foilstudy.present.configuration import configuration
 from foilstudy.present.report.spread import Spread
+from foilstudy.present.statistics.cells import realised
 
 _CELL = ("thickness", "overlength", "seed")
 _STAGES = {
@@ -102,8 +103,8 @@ def assess(cube: xr.Dataset, benchmarks: Path | None = None) -> Health:
     benchmarks
         Folder of the workflow's benchmark tables, searched recursively; None to leave them out.
     """
-    status = cube["status"].astype(str)
-    names, numbers = np.unique(status.values, return_counts=True)
+    status = cube["status"].astype(str).transpose(*_CELL)
+    names, numbers = np.unique(status.values[realised(cube).values], return_counts=True)
     found = dict(zip(names.tolist(), numbers.tolist(), strict=True))
     counts = {name: found.pop(name, 0) for name in STATUSES} | found
     memory = Spread.of(_values(cube, "peak_memory"))
@@ -123,7 +124,6 @@ def _values(cube: xr.Dataset, name: str) -> np.ndarray:
 
 
 def _flagged(cube: xr.Dataset, status: xr.DataArray) -> tuple[FlaggedCell, ...]:
-    status = status.transpose(*_CELL)
     cells = []
     wrong = status.values != "converged"
     if "valid_to_frequency" in cube:
@@ -132,7 +132,7 @@ def _flagged(cube: xr.Dataset, status: xr.DataArray) -> tuple[FlaggedCell, ...]:
     if "refined_status" in cube:
         relaxed = cube["refined_status"].transpose(*_CELL).values
         wrong |= ~np.isin(relaxed, ["", "converged"])
-    for where in np.argwhere(wrong):
+    for where in np.argwhere(wrong & realised(cube).values):
         cell = cube.isel(dict(zip(_CELL, where, strict=True)))
         cells.append(
             FlaggedCell(
@@ -185,7 +185,7 @@ def _jobs(folder: Path | None, cube: xr.Dataset) -> tuple[dict, ...]:
     """
     if folder is None or not Path(folder).is_dir():
         return ()
-    cells, rows = _cell_names(cube), []
+    cells, rows = set(_cell_names(cube)), []
     for path in sorted(Path(folder).rglob("*.tsv")):
         rule, *rest = path.relative_to(folder).with_suffix("").parts
         if rest and rule in _RULES_OF_CELLS and not (rest[0] in cells and _in_use(rule, cube)):
@@ -204,12 +204,12 @@ _RULES_OF_CELLS = ("crumple", "response", "refine", "export")
 """Those with a job for each realisation."""
 
 
-def _cell_names(cube: xr.Dataset) -> set[str]:
+def _cell_names(cube: xr.Dataset) -> Iterator[str]:
     """Realisations of the cube, as the workflow names their benchmark tables."""
-    thicknesses = [thickness_id(float(value)) for value in cube["thickness"].values]
-    heights = [overlength_id(float(value)) for value in cube["reference_height"].values]
-    seeds = [f"{int(value)}" for value in cube["seed"].values]
-    return {"_".join(parts) for parts in product(thicknesses, heights, seeds)}
+    for where in np.argwhere(realised(cube).values):
+        cell = cube.isel(dict(zip(_CELL, where, strict=True)))
+        height = overlength_id(float(cell["reference_height"]))
+        yield f"{thickness_id(float(cell['thickness']))}_{height}_{int(cell['seed'])}"
 
 
 def _in_use(rule: str, cube: xr.Dataset) -> bool:

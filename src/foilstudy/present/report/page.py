@@ -34,6 +34,7 @@ from foilstudy.present.report import (
 )
 from foilstudy.present.report.alt import alt_text
 from foilstudy.present.report.health import assess
+from foilstudy.present.statistics.cells import realised
 from foilstudy.present.statistics.tables import TABLES
 from foilstudy.present.statistics.trust import assess_trust
 from foilstudy.study.sweep.origins import physics_codes
@@ -156,7 +157,11 @@ def _content(files: StudyFiles, folder: Path) -> dict:
         "scope": _scope(cube, config),
         "grids": grid.stiffness_grids(summary),
         "grid_caption": grid.grid_caption(summary),
-        "sure_words": [*grid.sureness(summary), *_other_physics(cube)],
+        "sure_words": [
+            *grid.sureness(summary),
+            *grid.wish_findings(summary, config.get("sweep", {}).get("realisations_max")),
+            *_other_physics(cube),
+        ],
         "banner": distrust.banner(cube, trust),
         "laws": read_laws,
         "law_scope": laws.scope_of,
@@ -202,7 +207,7 @@ def _scope(cube: xr.Dataset, config: Mapping) -> list[str]:
 
     phrases = [
         f"{span('thickness', 'thickness', 'µm')} × {span('overlength', 'overlength', '%')} × "
-        f"{numerals.plural(cube.sizes['seed'], 'seed')}"
+        f"{_seeds(cube)}"
     ]
     sheet, material = config.get("sheet", {}), config.get("material", {})
     if sheet:
@@ -220,6 +225,12 @@ def _scope(cube: xr.Dataset, config: Mapping) -> list[str]:
     if "accuracy" in config:
         phrases.append(f"accuracy {accuracy_words(config)}")
     return phrases
+
+
+def _seeds(cube: xr.Dataset) -> str:
+    counts = realised(cube).sum("seed").values
+    least, most = int(counts.min()), int(counts.max())
+    return f"{least} to {most} seeds" if least < most else numerals.plural(most, "seed")
 
 
 def _element_size(section: dict) -> str:

@@ -12,7 +12,7 @@ from foilstudy.base.numerals import fixed, nominal, number, number_range, percen
 from foilstudy.present.comparison import comparable
 from foilstudy.present.report.laws import DirectionLaws
 from foilstudy.present.report.spread import Spread, by_direction, by_thickness
-from foilstudy.present.statistics.cells import measured
+from foilstudy.present.statistics.cells import measured, realised
 from foilstudy.present.statistics.powerlaw import SIMULATED
 
 _FREE, _STRESSED = SIMULATED["simulation"], SIMULATED["simulation pre-stressed"]
@@ -155,7 +155,7 @@ def relaxed_findings(cube: xr.Dataset) -> list[str]:
     size, n = cube["refined_element_size"].min(), sum(row.n for row in rows)
     sentences = [
         f"Relaxed again on a mesh of {nominal(float(size))} mm, {n} of "
-        f"{plural(cube['status'].size, 'realisation')} settled "
+        f"{plural(int(realised(cube).sum()), 'realisation')} settled "
         f"(largest residual {number(float(cube['refined_residual'].max()), 2)}, "
         f"{int((cube['refined_negative_eigenvalues'] > 0).sum())} with a negative eigenvalue)."
     ]

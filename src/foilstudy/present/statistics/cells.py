@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foilstudy.base.outcome import USABLE
+from foilstudy.base.outcome import NOT_NEEDED, USABLE
 
 
 @dataclass(frozen=True)
@@ -38,6 +38,19 @@ class Samples:
             self.reference_height_mm[keep],
             self.value[keep],
         )
+
+
+def realised(cube):
+    """Return which realisations there are, failed ones among them.
+
+    Where each configuration took as many as it needed, the cube is as long as the longest.
+
+    Returns
+    -------
+    xarray.DataArray of bool
+        With dimensions thickness, overlength, seed.
+    """
+    return (cube["status"] != NOT_NEEDED).transpose("thickness", "overlength", "seed")
 
 
 def usable(values):

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from foilstudy.base.confidence import NORMAL_95
 from foilstudy.base.reference import PowerLaw, PublishedLaw
 from foilstudy.present.comparison import comparable
 from foilstudy.present.statistics.cells import Samples, measured, samples
@@ -24,9 +25,6 @@ SIMULATED = {
 
 TRUSTED = "simulation mesh limit, trusted"
 """Source of the law of the mesh limit of those configurations alone that are trusted."""
-
-NORMAL_95 = 1.959964
-"""Half width of a two-sided 95 % interval of the normal distribution in standard deviations."""
 
 
 @dataclass(frozen=True)

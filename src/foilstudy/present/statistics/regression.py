@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-CONFIDENCE = 0.95
-"""Of every interval that is given."""
+from foilstudy.base.confidence import CONFIDENCE
+
 SIGNIFICANT = 0.05
 """Probability below which a departure is not left to chance."""
 

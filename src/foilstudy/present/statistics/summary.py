@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from foilstudy.base.confidence import MeanInterval
 from foilstudy.base.outcome import USABLE
 from foilstudy.present.comparison import comparable
-from foilstudy.present.statistics.cells import good
+from foilstudy.present.configuration import configuration
+from foilstudy.present.statistics.cells import good, realised
 from foilstudy.present.statistics.trust import assess_trust
+from foilstudy.study.sweep.rounds import answering_values
 
 _STIFFNESSES = ("static_stiffness", "static_stiffness_free", "static_stiffness_converged")
 
@@ -24,6 +27,11 @@ def stiffness_summary(cube):
         over them, ``mesh_error_mean`` its estimated error and ``mesh_error_share_max`` the
         largest of a realisation, over its value; ``element_over_sqrt_rt`` tells how well the
         crumple is resolved. ``trusted``: see `foilstudy.present.statistics.trust`.
+        ``best_low`` to ``best_high`` is the 95 % interval (`foilstudy.base.confidence`) of the mean
+        of the ``best_n`` values that answer: in the mesh limit, or on the crumpled mesh where no
+        mesh error is stated; ``best_half_width`` half of it over that mean,
+        ``wished_half_width`` what the study wished, and ``wish_takes`` how many values the scatter
+        takes for that.
         ``cylinder_bound`` belongs to the uncrumpled cylinder. A ratio is our mean over the
         published fit; these columns are there for the published case alone.
     """
@@ -32,6 +40,7 @@ def stiffness_summary(cube):
     status = cube["status"].transpose("thickness", "overlength", "seed")
     usable = status.isin(USABLE).to_numpy()
     not_converged = (status == "not_converged").to_numpy()
+    there, wish = realised(cube).to_numpy(), wished_half_width(cube)
     reference, trust = comparable(cube), assess_trust(cube)
     slenderness = trust.slenderness.to_numpy()
     rows = []
@@ -58,7 +67,7 @@ def stiffness_summary(cube):
                     "direction": direction,
                     "n": values.size,
                     "n_not_converged": not_converged[i, j].sum(),
-                    "n_failed": (~usable[i, j]).sum(),
+                    "n_failed": (there[i, j] & ~usable[i, j]).sum(),
                     "mean": mean,
                     "std": std,
                     "cv": std / mean,
@@ -71,11 +80,32 @@ def stiffness_summary(cube):
                     "mesh_error_share_max": mesh_error_max[i, j],
                     "element_over_sqrt_rt": slenderness[i, j],
                     "trusted": trusted[i, j],
+                    **_confidence(
+                        answering_values(static[i, j], limit[i, j], mesh_error[i, j]), wish
+                    ),
                     "cylinder_bound": bound[i, j],
                 }
                 | _beside_published(reference, direction, overlength, thickness, mean)
             )
     return pd.DataFrame(rows)
+
+
+def _confidence(values: np.ndarray, wish: float) -> dict[str, float]:
+    mean = MeanInterval.of(values)
+    return {
+        "best_n": mean.n,
+        "best_low": mean.low,
+        "best_high": mean.high,
+        "best_half_width": mean.half_width,
+        "wished_half_width": wish,
+        "wish_takes": mean.values_for(wish) if np.isfinite(wish) else np.nan,
+    }
+
+
+def wished_half_width(cube) -> float:
+    """Half width of the interval of a mean that the study wished for; NaN where it did not."""
+    percent = configuration(cube).get("report", {}).get("confidence_percent")
+    return np.nan if percent is None else percent / 100
 
 
 def _beside_published(reference, direction, overlength, thickness, mean) -> dict[str, float]:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from foilstudy.base.confidence import CONFIDENCE
 from foilstudy.present.statistics.cells import measured
 from foilstudy.present.statistics.powerlaw import SIMULATED, sources_in
-from foilstudy.present.statistics.regression import CONFIDENCE, LinearFit, fit_linear
+from foilstudy.present.statistics.regression import LinearFit, fit_linear
 
 PLAIN = SIMULATED["simulation"]
 """The stiffness whose scatter the figure and the regression show."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,7 @@ from foilstudy.base.cube import CONTENT, CONVENTION
 from foilstudy.base.digest import digest_of
 from foilstudy.base.files import written_whole
 from foilstudy.base.origin import Origin
-from foilstudy.base.outcome import USABLE
+from foilstudy.base.outcome import NOT_NEEDED, USABLE
 from foilstudy.base.provenance import provenance
 from foilstudy.base.record import read_record
 from foilstudy.config import Cell, StudyConfig
@@ -33,6 +34,7 @@ from foilstudy.study.sweep.origins import (
     response_origin,
 )
 from foilstudy.study.sweep.quantities import QUANTITIES
+from foilstudy.study.sweep.rounds import recorded_values, wanted_cells
 
 _CELL = ("thickness", "overlength", "seed")
 
@@ -58,7 +60,8 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
     Refusal
         If a record is missing, unreadable, of another task, or made by other code.
     """
-    coordinates = _coordinates(study)
+    wanted = wanted_cells(study, lambda cell: recorded_values(study, results, cell))
+    coordinates = _coordinates(study, wanted)
     variables = {name: q for name, q in QUANTITIES.items() if q.in_cube}
     sizes = {name: len(values) for name, (_, values, _) in coordinates.items()}
     cells = tuple(sizes[name] for name in _CELL)
@@ -66,15 +69,19 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
         name: np.full(cells + tuple(sizes[d] for d in quantity.dims), np.nan)
         for name, quantity in variables.items()
     }
-    status = np.full(cells, "", dtype=object)
+    status = np.full(cells, NOT_NEEDED, dtype=object)
     message = np.full(cells, "", dtype=object)
     refined = study.stiffness.relaxed_refinements > 0
     refined_status = np.full(cells, "", dtype=object)
-    position = {cell: index for index, cell in zip(np.ndindex(cells), study.cells(), strict=True)}
     digests = {name: np.full(cells, "", dtype=object) for name in parts_of(study)}
     commits: set[str] = set()
-    for cell, index in position.items():
+    for cell in wanted:
         record = _read_cell(study, cell, results)
+        index = (
+            study.thicknesses_um.index(cell.thickness_um),
+            study.reference_heights_mm.index(cell.reference_height_mm),
+            cell.seed,
+        )
         status[index], message[index] = record.status, record.message
         refined_status[index] = record.refined_status
         commits |= record.commits
@@ -116,14 +123,18 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
     for name, values in digests.items():
         words = {"units": "1", "long_name": f"digest of the record {name}.nc"}
         cube[f"{name}_digest"] = (_CELL, values, words)
-    origin = cube_origin(study, digests, attributes["digest"])
+    there = status != NOT_NEEDED
+    gathered = {name: found[there] for name, found in digests.items()}
+    origin = cube_origin(study, gathered, attributes["digest"])
     cube.attrs |= origin.attributes() | {"digest": origin.digest} | physics_codes(study)
     cube.attrs[CONTENT] = digest_of({name: v.values for name, v in cube.variables.items()})
     _write(cube, path)
     return cube
 
 
-def _coordinates(study: StudyConfig) -> dict[str, tuple[str, np.ndarray, dict]]:
+def _coordinates(
+    study: StudyConfig, wanted: Sequence[Cell]
+) -> dict[str, tuple[str, np.ndarray, dict]]:
     options = dynamics_of(study.dynamics)
 
     def coordinate(dim, values, units, text):
@@ -136,7 +147,7 @@ def _coordinates(study: StudyConfig) -> dict[str, tuple[str, np.ndarray, dict]]:
         "reference_height": coordinate(
             "overlength", study.reference_heights_mm, "mm", "height of the uncrumpled cylinder"
         ),
-        "seed": coordinate("seed", study.seeds, "1", "realisation"),
+        "seed": coordinate("seed", np.arange(1 + max(c.seed for c in wanted)), "1", "realisation"),
         "direction": coordinate("direction", DIRECTIONS, "1", "direction of motion and force"),
         "definition": coordinate("definition", DEFINITIONS, "1", "dynamic stiffness definition"),
         "frequency": coordinate("frequency", options.grid, "Hz", "frequency"),

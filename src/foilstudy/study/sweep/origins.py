@@ -46,12 +46,24 @@ RESPONSE = Code(("study.sweep.respond",), _MEASURING, _TABLE)
 REFINED = Code(("study.sweep.relax_refined",), _MEASURING, (*_TABLE, "measure.dynamics"))
 # its task says `auto`, and not the size that comes of it
 CYLINDER = Code(("study.sweep.cylinder", "config.mesh"), _MEASURING, _TABLE)
-CUBE = Code(("study.sweep.cube", "config.model"), ("study.sweep.quantities",))
+CUBE = Code(
+    ("study.sweep.cube", "config.model"),
+    ("study.sweep.quantities", "study.sweep.rounds", "base.confidence"),
+)
 EXPORT = Code(("study.sweep.export",), (*_MEASURING, "export"), _TABLE)
 
 PRESENTING = Code(
     ("present.jobs",),
-    ("base", "config", "measure", "model", "plot", "present", "study.sweep.expected"),
+    (
+        "base",
+        "config",
+        "measure",
+        "model",
+        "plot",
+        "present",
+        "study.sweep.expected",
+        "study.sweep.rounds",
+    ),
 )
 _TEMPLATES = ("base/data", "present/report/templates")
 """What decides how a cube is shown, beside sources."""

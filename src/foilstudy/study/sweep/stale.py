@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Generator, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +16,7 @@ from foilstudy.base.errors import Refusal
 from foilstudy.base.manifest import listed, outdated
 from foilstudy.base.origin import Origin
 from foilstudy.base.record import read_record
-from foilstudy.config import StudyConfig
+from foilstudy.config import Cell, StudyConfig
 from foilstudy.study.stale import Stale
 from foilstudy.study.sweep.origins import (
     cell_folder,
@@ -27,8 +29,12 @@ from foilstudy.study.sweep.origins import (
     refined_origin,
     response_origin,
 )
+from foilstudy.study.sweep.rounds import Values, rounds, stiffnesses_of
 
 __all__ = ["stale_results"]
+
+_STIFFNESSES = "stiffnesses"
+"""Key of the values that rounds go by, beside the attributes of a response."""
 
 
 def stale_results(
@@ -44,31 +50,18 @@ def stale_results(
     presented : iterable of Path
         Tables, figures and page.
     """
-    digests: dict[str, list[str]] = {name: [] for name in parts_of(study)}
+    made: dict[Cell, _Made] = {}
     for cell in study.cells():
-        folder = cell_folder(results, cell)
-        path = folder / "crumple.nc"
-        crumple = yield from _checked(path, crumple_origin(study.crumple_task(cell)))
-        digests["crumple"].append(crumple.get("digest", ""))
-        if not crumple:
-            digests["response"].append("")
-            continue  # all else is made from it, and so made again with it
-        origins = {"response": response_origin(study.response_task(cell), crumple)}
-        if "refined" in digests:
-            origins["refined"] = refined_origin(study.refine_task(cell), crumple)
-        for name, origin in origins.items():
-            record = yield from _checked(folder / f"{name}.nc", origin)
-            digests[name].append(record.get("digest", ""))
-        if study.export.formats:
-            wanted = export_origin(study.response_task(cell), crumple, study.export.formats)
-            yield from _checked_export(folder / "export", wanted)
+        made[cell] = yield from _realisation(study, results, cell)
+    wanted = yield from _rounds(study, results, made)
     cylinder = yield from _checked(results / "cylinder.nc", cylinder_origin(study))
-    if cylinder and all(all(found) for found in digests.values()):
-        arrays = {name: np.array(found) for name, found in digests.items()}
-        wanted = cube_origin(study, arrays, cylinder["digest"])
+    parts = parts_of(study)
+    if cylinder and wanted and all(made[cell].digests.keys() == set(parts) for cell in wanted):
+        arrays = {name: np.array([made[cell].digests[name] for cell in wanted]) for name in parts}
+        origin = cube_origin(study, arrays, cylinder["digest"])
     else:
-        wanted = cube_origin(study, {}, "")  # no cube was made from what is not there
-    cube = yield from _checked(results / "cube.nc", wanted, verified_attributes)
+        origin = cube_origin(study, {}, "")  # no cube was made from what is not there
+    cube = yield from _checked(results / "cube.nc", origin, verified_attributes)
     if cube:
         other = outdated(results, presented_origin(cube), presented)
     else:
@@ -76,9 +69,77 @@ def stale_results(
     yield from (Stale(path, reason) for path, reason in other.items())
 
 
+@dataclass(frozen=True)
+class _Made:
+    """What counts of a realisation: digests of its records by their names, its stiffnesses."""
+
+    digests: dict[str, str]
+    stiffnesses: Values | None = None
+
+
+def _realisation(study: StudyConfig, results: Path, cell: Cell) -> Generator[Stale, None, _Made]:
+    folder = cell_folder(results, cell)
+    path = folder / "crumple.nc"
+    crumple = yield from _checked(path, crumple_origin(study.crumple_task(cell)))
+    if not crumple:
+        return _Made({})  # all else is made from it, and so made again with it
+    digests = {"crumple": crumple["digest"]}
+    origin = response_origin(study.response_task(cell), crumple)
+    response = yield from _checked(folder / "response.nc", origin, _responded)
+    if response:
+        digests["response"] = response["digest"]
+    if "refined" in parts_of(study):
+        origin = refined_origin(study.refine_task(cell), crumple)
+        refined = yield from _checked(folder / "refined.nc", origin)
+        if refined:
+            digests["refined"] = refined["digest"]
+    if study.export.formats:
+        wanted = export_origin(study.response_task(cell), crumple, study.export.formats)
+        yield from _checked_export(folder / "export", wanted)
+    return _Made(digests, response.get(_STIFFNESSES))
+
+
+class _NotMade(Exception):
+    """A realisation that a round waits for."""
+
+
+def _rounds(
+    study: StudyConfig, results: Path, made: Mapping[Cell, _Made]
+) -> Generator[Stale, None, tuple[Cell, ...]]:
+    """Realisations of the study; none where that is not known yet."""
+    if not study.sweep.in_rounds:
+        return study.cells()
+
+    def values_of(cell: Cell) -> Values:
+        if (stiffnesses := made[cell].stiffnesses) is None:
+            raise _NotMade
+        return stiffnesses
+
+    texts: list[str] = []
+    last: tuple[Cell, ...] = ()
+    with suppress(_NotMade):
+        for each in rounds(study, values_of):
+            texts.append(each.text())
+            if each.is_last:
+                last = each.cells(study)
+    for path in sorted((results / "rounds").glob("*.json")):
+        number = int(path.stem) if path.stem.isdecimal() else len(texts)
+        if number < len(texts):
+            if path.read_text("utf-8", errors="replace") != texts[number]:
+                yield Stale(path, "was made from other realisations or for another wish")
+        elif not last:  # else of longer rounds than these, and nobody reads it
+            yield Stale(path, "was made from realisations that are not there")
+    return last
+
+
 def _verified(path: Path) -> dict[str, Any]:
     _, attributes = read_record(path)
     return attributes
+
+
+def _responded(path: Path) -> dict[str, Any]:
+    values, attributes = read_record(path)
+    return attributes | {_STIFFNESSES: stiffnesses_of(values, attributes)}
 
 
 def _checked(
