@@ -10,9 +10,6 @@ import numpy as np
 from scipy import stats
 
 from foilstudy.measure.dynamics import DynamicsOptions
-from foilstudy.model.foil import Imperfection
-from foilstudy.pipeline.crumpled import Recipe
-from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.study.kernel.plan import Records
 from foilstudy.study.tradeoff import ensembles, panel
 from foilstudy.study.tradeoff.frozen import Static
@@ -171,7 +168,7 @@ def text_of(ladder: Ladder, family: Family, point: Point) -> str:
 def default_of(ladder: Ladder) -> Any:
     """The default specification of a ladder."""
     if ladder.part == "ensembles":
-        return Recipe(Mesh(ladder.default.size_mm * 1e-3), Imperfection(), Method())
+        return ensembles.recipe(ladder.default)
     return {"panel": panel.Followed, "static": Static, "dynamic": DynamicsOptions}[ladder.part]()
 
 
