@@ -70,7 +70,8 @@ def test_the_charted_defaults_are_those_of_a_study():
     config = load_config({"sweep": {"thickness_um": [500], "reference_height_mm": [170]}})
     assert method_of(config.crumple_task(config.cells()[0])) == Method()
     assert dynamics_of(config.dynamics) == DynamicsOptions()
-    assert Static().refinements == config.stiffness.refinements
+    stiffness = Static().error_percent, Static().refinements
+    assert stiffness == (config.stiffness.error_percent, config.stiffness.refinements)
 
 
 # --- what is measured ----------------------------------------------------------------------------
@@ -204,7 +205,7 @@ def test_the_front_is_what_nothing_beats_in_both(study):
 
 def test_the_page_tells_defaults_intervals_and_failures(study):
     page = tables.page(study)
-    assert "| refinements | 1 (default) | 1.00 | 1 | **+0 ± 1 %** | **+0 ± 1 %** |" in page
+    assert "| refinements at most | 2 (default) | 1.00 | 1 | **+0 ± 1 %** | **+0 ± 1 %** |" in page
     assert "Natural scatter of a realisation: energy 10%, axial 10%, radial 10%." in page
     assert ", 1 failed |" in page
     assert "reference ±" in page

@@ -1,6 +1,7 @@
 """The Snakemake workflow: what it plans, what it refuses, what it makes again."""
 
 import os
+import re
 import shutil
 import signal
 import subprocess

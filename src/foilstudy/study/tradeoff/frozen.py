@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from foilstudy.config.accuracy import STANDARD
 from foilstudy.linalg import SolveError
 from foilstudy.measure.dynamics import (
     DynamicsOptions,
@@ -20,7 +21,7 @@ from foilstudy.model.shell.elements.sampled import STAGGERED
 from foilstudy.pipeline.crumple import crumple, uncrumpled
 from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.method import Mesh
-from foilstudy.pipeline.static import mesh_limit_of, stress_free_stiffness
+from foilstudy.pipeline.static import mesh_limit_within, stress_free_stiffness
 from foilstudy.pipeline.structures import stress_free_structure
 from foilstudy.study.elements.plan import DEFAULT
 from foilstudy.study.elements.variants import VARIANTS
@@ -45,13 +46,14 @@ class Static:
     ----------
     element : str
         By its name among the variants.
-    refinements : int
-        As `stiffness.refinements` of a configuration: halvings of the elements, extrapolated from
-        two on.
+    error_percent, refinements
+        As in the section `stiffness` of a configuration: the demanded error, and how often the
+        elements are halved at most to meet it.
     """
 
     element: str = DEFAULT
-    refinements: int = 1
+    error_percent: float = STANDARD.stiffness_error_percent
+    refinements: int = 2
 
 
 def shape(case: CrumpleCase) -> dict:
@@ -113,10 +115,10 @@ def static(point: Point, shapes: Mapping[CrumpleCase, Record]) -> dict:
         variant = VARIANTS[what.element]
         element = variant.general_kernel() if point.change == "element" else variant.element
         try:
-            levels = mesh_limit_of(replace(crumpled, element=element), what.refinements)
+            given = replace(crumpled, element=element)
+            return mesh_limit_within(given, what.error_percent / 100, what.refinements).stiffness
         except SolveError:
             return np.full(2, np.nan)
-        return levels.levels[0] if what.refinements == 0 else levels.stiffness
 
     found, times = in_turns(lambda: measured(point.applied(Static())), lambda: measured(Static()))
     axial, radial = found / _found(point, shapes)["static"] - 1
