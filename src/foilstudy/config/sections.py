@@ -37,6 +37,7 @@ REALISATIONS_MAX_DEFAULT = 24
 CONFIDENCE_DEFAULT_PERCENT = 20.0
 RAMP_STEPS_MIN = 100
 """In fewer the foil cannot follow the ring."""
+RAMP_STEPS_MAX = 10_000_000
 TEXT_MAX = 200
 # Any characters of any language, and several lines, but none that no file or terminal can show.
 _SHOWN = r"^[^\x00-\x08\x0B-\x1F\x7F-\x9F\u2028\u2029]*$"
@@ -311,7 +312,7 @@ class Relaxation(Section):
         "Steps in which the top ring closes the gap. Left out, `ramp_slowness` decides.",
         None,
         ge=10,
-        le=10_000_000,
+        le=RAMP_STEPS_MAX,
     )
     ramp_slowness: float | None = unit_field(
         "steps",
@@ -368,7 +369,8 @@ class Relaxation(Section):
         """That of a foil of one R/t, the steps of its ramp a number."""
         if self.ramp_steps is not None:
             return self
-        steps = max(RAMP_STEPS_MIN, round(self.ramp_slowness * slenderness))
+        steps = round(self.ramp_slowness * slenderness)
+        steps = min(max(RAMP_STEPS_MIN, steps), RAMP_STEPS_MAX)
         return self.model_copy(update={"ramp_steps": steps, "ramp_slowness": None})
 
 
