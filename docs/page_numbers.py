@@ -1,17 +1,19 @@
-"""Write the numbers of the published study into the pages: docs/page_numbers.py [--check].
+"""Write the numbers of the studies into the pages: docs/page_numbers.py [--check].
 
-    .venv/bin/python docs/page_numbers.py           the pages, of results/thesis
+    .venv/bin/python docs/page_numbers.py           the pages, of the studies below results/
     .venv/bin/python docs/page_numbers.py --check   only say whether they are as they should be
 
-What stands between ``<!-- numbers: NAME -->`` and ``<!-- end -->`` is what the function NAME below
-makes of cube and tables; everything else is left alone.
+What stands between ``<!-- numbers: NAME of STUDY, STUDY -->`` and ``<!-- end -->`` is what the
+function NAME below makes of cube and tables of these studies, folders of results/; a block that
+names no study is of the one that it is called as. Everything else is left alone.
 """
 
 from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
@@ -19,43 +21,94 @@ import numpy as np
 import pandas as pd
 
 from foilstudy import open_cube
+from foilstudy.base.errors import Refusal
 from foilstudy.base.reference import published
 from foilstudy.present.comparison import studied_case
 from foilstudy.present.configuration import configuration
-from foilstudy.present.report.laws import Exponent, read_laws
+from foilstudy.present.report.equilibrium import ramp_steps
+from foilstudy.present.report.laws import SOURCES, DirectionLaws, Exponent, Law, read_laws
 from foilstudy.present.statistics.cells import good, relative_mesh_error
-from foilstudy.present.statistics.powerlaw import LIMIT, PLAIN, TRUSTED
+from foilstudy.present.statistics.powerlaw import LIMIT, PLAIN, TRUSTED, powerlaw_table
+from foilstudy.present.statistics.summary import best_mean, stiffness_summary
 from foilstudy.present.statistics.trust import assess_trust
+from foilstudy.study.registry import STUDIES
 
 ROOT = Path(__file__).parents[1]
+RESULTS = ROOT / "results"
 PAGES = ("README.md", "docs/comparison.md", "docs/method.md", "docs/tradeoff.md")
-BLOCK = re.compile(r"(<!-- numbers: (\w+) -->\n)(.*?)(<!-- end -->)", re.DOTALL)
+BLOCK = re.compile(
+    r"(?P<head><!-- numbers: (?P<name>\w+)(?: of (?P<studies>[\w, -]+?))? -->\n)"
+    r"(?P<text>.*?)(?P<end><!-- end -->)",
+    re.DOTALL,
+)
 DIRECTIONS = ("axial", "radial")
-PRESTRESSED = "simulation pre-stressed"
 NAMES = {
-    TRUSTED: "**mesh limit, trusted**",
+    TRUSTED: "mesh limit, trusted",
     LIMIT: "mesh limit, all",
-    PLAIN: "5 mm mesh, all",
-    PRESTRESSED: "pre-stressed, 5 mm, all",
-    "published simulation": "published simulation",
-    "published experiment": "published experiment",
+    PLAIN: "mesh of the crumple, all",
+    "simulation pre-stressed": "pre-stressed, mesh of the crumple, all",
+    "simulation pre-stressed refined": "pre-stressed, relaxed again, all",
 }
+"""Sources of a law of a study."""
 
 
+@dataclass(frozen=True)
 class Study:
-    """Cube and tables of the published study."""
+    """Cube and tables of a study.
 
-    def __init__(self, folder: Path = ROOT / "results/thesis") -> None:
-        self.folder = folder
+    Attributes
+    ----------
+    folder : Path
+        Named as its configuration is.
+    """
+
+    folder: Path
+
+    def file(self, name: str) -> Path:
+        """A file of the study.
+
+        Raises
+        ------
+        Refusal
+            If the study has not been made, naming the command that makes it.
+        """
+        path = self.folder / name
+        if not path.exists():
+            study = self.folder.name
+            command = f"make study CONFIG=config/{study}.yaml"
+            if study in STUDIES:
+                command = f".venv/bin/snakemake -j1 {study}"
+            raise Refusal(f"results/{study}/{name} is missing; `{command}` makes it.")
+        return path
 
     @cached_property
     def cube(self):
         """The cube."""
-        return open_cube(self.folder / "cube.nc")
+        return open_cube(self.file("cube.nc"))
 
     def table(self, name: str) -> pd.DataFrame:
         """A table by its name."""
-        return pd.read_csv(self.folder / f"{name}.csv")
+        return pd.read_csv(self.file(f"{name}.csv"))
+
+    @property
+    def laws(self) -> tuple[DirectionLaws, ...]:
+        """Its power laws."""
+        case = studied_case(self.cube)
+        scale = case.diameter_mm / 2, case.youngs_modulus_mpa
+        return read_laws(self.table("powerlaw"), self.table("stiffness_summary"), scale)
+
+    def laws_from(self, thicknesses: list[int]) -> tuple[DirectionLaws, ...]:
+        """Its power laws, were these thicknesses (um) all."""
+        part = self.cube.sel(thickness=thicknesses)
+        return read_laws(powerlaw_table(part), stiffness_summary(part))
+
+    @property
+    def mesh(self) -> str:
+        """What it was crumpled on."""
+        section = configuration(self.cube)["mesh"]
+        if section["element_size_mm"] == "auto":
+            return f"resolved to {section['energy_error_percent']:g} %"
+        return f"{section['element_size_mm']:g} mm"
 
     @property
     def thicknesses(self) -> list[int]:
@@ -63,14 +116,19 @@ class Study:
         return [int(value) for value in self.cube["thickness"].values]
 
     @property
+    def thickest(self) -> int:
+        """Of the sweep, um."""
+        return max(self.thicknesses)
+
+    @property
     def overlengths(self) -> np.ndarray:
         """Of the sweep, %."""
         return self.cube["overlength"].values
 
 
-def block(name: str, study: Study) -> str:
+def block(name: str, *studies: Study) -> str:
     """The text of a block, ending with a line break."""
-    return "\n".join(BLOCKS[name](study)) + "\n"
+    return "\n".join(BLOCKS[name](*studies)) + "\n"
 
 
 def rows(head: list[str], body: list[list[str]]) -> Iterator[str]:
@@ -80,33 +138,164 @@ def rows(head: list[str], body: list[list[str]]) -> Iterator[str]:
     yield from (f"| {' | '.join(row)} |" for row in body)
 
 
-def law(study: Study) -> Iterator[str]:
-    """Coefficients of every law with their 95 % intervals."""
+def headline(*studies: Study) -> Iterator[str]:
+    """The law of the first study, those of the others and the published ones beside it."""
+    yield from _laws(studies, (TRUSTED, LIMIT))
+
+
+def law(*studies: Study) -> Iterator[str]:
+    """Every law of the studies and the published ones, with their 95 % intervals."""
+    yield from _laws(studies, SOURCES)
+
+
+def _laws(studies: tuple[Study, ...], sources: Container[str]) -> Iterator[str]:
+    """Coefficients of laws of some sources; that of the first study which answers is bold."""
+    first, *others = studies
     body = []
-    for direction in read_laws(study.table("powerlaw"), study.table("stiffness_summary")):
+    for k, direction in enumerate(first.laws):
+        listed = [
+            (f"{study.mesh}, {NAMES[each.source]}", each)
+            for study in studies
+            for each in study.laws[k].laws
+            if each.source in NAMES and each.source in sources
+        ]
+        if direction.answer:
+            listed[0] = f"**{listed[0][0]}**", listed[0][1]
+        listed += _same_thicknesses(first, others, k)
+        listed += [
+            (each.source, each) for each in direction.laws if each.source.startswith("published")
+        ]
+        body += [_law_row(direction.direction, *each) for each in listed]
+    heads = ["", "law", "α", "β, overlength", "γ, thickness", "R²", "n"]
+    yield from rows(heads, body)
+
+
+def _same_thicknesses(first: Study, others: list[Study], k: int) -> Iterator[tuple[str, Law]]:
+    """Laws of other studies over the thicknesses that the first one has, where they have more."""
+    for study in others:
+        shared = [t for t in study.thicknesses if t in first.thicknesses]
+        if 1 < len(shared) < len(study.thicknesses):
+            limit = study.laws_from(shared)[k].law(LIMIT)
+            if limit is not None:
+                yield f"{study.mesh}, mesh limit, {_list(shared)} µm", limit
+
+
+def _law_row(direction: str, words: str, each: Law) -> list[str]:
+    coefficients = [_coefficient(c) for c in (each.alpha, each.beta, each.gamma)]
+    count = f"{each.n:.0f}" if np.isfinite(each.n) else ""
+    return [direction, words, *coefficients, f"{each.r2:.3f}", count]
+
+
+def differences(study: Study) -> Iterator[str]:
+    """How each published law differs from the one that answers."""
+    for direction in study.laws:
         for each in direction.laws:
-            coefficients = [_coefficient(c) for c in (each.alpha, each.beta, each.gamma)]
-            count = f"{each.n:.0f}" if np.isfinite(each.n) else ""
-            name = f"{direction.direction}, {NAMES[each.source]}"
-            body.append([name, *coefficients, f"{each.r2:.3f}", count])
-    yield from rows(["", "α", "β, overlength", "γ, thickness", "R²", "n"], body)
+            if each.source.startswith("published"):
+                words = each.differences or "not compared, as no configuration is trusted"
+                yield f"- {direction.direction}, {each.source}: {words}"
 
 
 def dimensionless(study: Study) -> Iterator[str]:
-    """The trusted laws without units."""
+    """The laws that answer without units."""
     case = studied_case(study.cube)
-    radius, modulus = case.diameter_mm / 2, case.youngs_modulus_mpa
-    for direction in read_laws(study.table("powerlaw"), study.table("stiffness_summary")):
-        one = direction.law(TRUSTED).law.dimensionless(radius, modulus)
-        slender = case.gap_height_mm / case.diameter_mm
+    slender = case.gap_height_mm / case.diameter_mm
+    for direction in study.laws:
+        one = direction.dimensionless
+        if one is None:
+            yield f"- {direction.direction}: no law, as no configuration is trusted"
+            continue
         yield (
             f"- {direction.direction}: k/(E t) = {one.constant:.2f} · (overlength/gap)^"
             f"{one.beta:.2f} · (t/R)^{one.gamma:.2f}, at a gap of {slender:.2f} diameters"
         )
 
 
+def beside(first: Study, second: Study) -> Iterator[str]:
+    """Means of the first study over those of the second, with the interval of the ratio."""
+    keys = ["direction", "thickness_um", "reference_height_mm"]
+    shared = _means(first).merge(_means(second), on=keys, suffixes=("_a", "_b"))
+    heights = shared["reference_height_mm"].unique()
+    names = shared.drop_duplicates("reference_height_mm")["overlength_percent_a"]
+    body = []
+    for (direction, thickness), some in shared.groupby(["direction", "thickness_um"]):
+        cells = some.set_index("reference_height_mm").reindex(heights)
+        ratios = (_ratio(cell) for _, cell in cells.iterrows())
+        body.append([f"{direction} {thickness:.0f} µm", *ratios])
+    yield from rows(["", *(f"{value:.2g} %" for value in names)], body)
+
+
+def _means(study: Study) -> pd.DataFrame:
+    summary = study.table("stiffness_summary")
+    names = ["direction", "thickness_um", "reference_height_mm", "overlength_percent"]
+    return summary[[*names, "best_low", "best_high"]].assign(mean=best_mean(summary))
+
+
+def _ratio(cell: pd.Series) -> str:
+    """A ratio of means; its interval recovers the variances of their logarithms from theirs."""
+    mean, low, high = (
+        np.log([cell[f"{name}_{side}"] for side in "ab"])
+        for name in ("mean", "best_low", "best_high")
+    )
+    below, above = mean - low, high - mean
+    middle = mean[0] - mean[1]
+    ends = middle - np.hypot(below[0], above[1]), middle + np.hypot(above[0], below[1])
+    return f"{_short(np.exp(middle))} [{', '.join(_short(np.exp(end)) for end in ends)}]"
+
+
 def _coefficient(coefficient: Exponent) -> str:
     return f"{coefficient.value:.2f}{coefficient.margin}".replace("−", "-")
+
+
+def summary(*studies: Study) -> Iterator[str]:
+    """What was published in a number, and ours."""
+    theirs = published()
+    laws = [theirs.power_laws[direction]["simulation"] for direction in DIRECTIONS]
+    lines = {
+        f"power law of the simulation, R² {_pair([each.r2 for each in laws], '.3f')}": _fits,
+        f"its exponent of the overlength {_pair([each.beta.value for each in laws])}": (
+            lambda study: _answers(study, "beta")
+        ),
+        f"its exponent of the thickness {_pair([each.gamma.value for each in laws])}": (
+            lambda study: _answers(study, "gamma")
+        ),
+        "axial softer than radial": _softer,
+        "axial scatters more": _scatter,
+        "radial displacement {:g} to {:g} mm".format(*theirs.radial_displacement_range_mm): (
+            lambda study: "{:.0f} to {:.0f} mm".format(*_displacement(study))
+        ),
+    }
+    body = [[words, *map(value, studies)] for words, value in lines.items()]
+    yield from rows(["published (axial, radial)", *(study.mesh for study in studies)], body)
+
+
+def _pair(values: list[float], form: str = ".2f") -> str:
+    return ", ".join(f"{value:{form}}" for value in values)
+
+
+def _fits(study: Study) -> str:
+    return _pair([direction.best.r2 for direction in study.laws], ".3f")
+
+
+def _answers(study: Study, name: str) -> str:
+    return ", ".join(_coefficient(getattr(direction.best, name)) for direction in study.laws)
+
+
+def _softer(study: Study) -> str:
+    mean = good(study.cube, "static_stiffness_converged").mean("seed")
+    axial, radial = (mean.sel(direction=direction) for direction in DIRECTIONS)
+    return f"in {int((axial < radial).sum())} of {axial.size} configurations"
+
+
+def _scatter(study: Study) -> str:
+    table = study.table("variability")
+    cv = table[table["quantity"] == "static_stiffness"].groupby("direction")["cv"].median()
+    medians = " against ".join(f"{100 * cv[direction]:.2g} %" for direction in DIRECTIONS)
+    return f"median coefficient of variation {medians}"
+
+
+def _displacement(study: Study) -> tuple[float, float]:
+    low, high = (study.cube[f"radial_displacement_{end}"] for end in ("min", "max"))
+    return float(low.min()), float(high.max())
 
 
 def trust(study: Study) -> Iterator[str]:
@@ -135,12 +324,6 @@ def trust(study: Study) -> Iterator[str]:
 
 def _ends(values: np.ndarray) -> str:
     return f"{values.min():.0f} to {values.max():.0f}"
-
-
-def means(study: Study) -> Iterator[str]:
-    """Mean stiffness over the seeds in the mesh limit."""
-    limit = good(study.cube, "static_stiffness_converged").mean("seed")
-    yield from _by_overlength(study, lambda d, t: [_short(v) for v in _row(limit, d, t)])
 
 
 def simulation(study: Study) -> Iterator[str]:
@@ -208,8 +391,8 @@ def bound(study: Study) -> Iterator[str]:
     share = good(study.cube, "static_stiffness_converged") / cylinder
     words = (f"{100 * float(share.sel(direction=d).max()):.0f} % ({d})" for d in DIRECTIONS)
     yield (
-        f"No crumple of ours exceeds {' or '.join(words)} of the stiffness of the uncrumpled "
-        "cylinder of the same foil and height."
+        f"No crumple ({study.mesh}) exceeds {' or '.join(words)} of the stiffness of the "
+        "uncrumpled cylinder of the same foil and height."
     )
 
 
@@ -243,17 +426,19 @@ def dynamics(study: Study) -> Iterator[str]:
         f"- *Equal to the static one at low frequency*: at {float(frequency[0]):g} Hz within "
         f"{100 * float(start.max()):.2f} % in all {int(np.isfinite(start[..., 0]).sum())}."
     )
-    thick = np.exp(np.log(relative.sel(thickness=500)).mean("seed"))
+    thick = np.exp(np.log(relative.sel(thickness=study.thickest)).mean("seed"))
     for direction in DIRECTIONS:
         curves = thick.sel(direction=direction)
         risen = curves > 1.5 * curves.isel(frequency=0)
         first = (
-            frequency.values[int(np.argmax(risen.isel(overlength=k).values))] for k in range(5)
+            frequency.values[int(np.argmax(risen.isel(overlength=k).values))]
+            for k in range(study.overlengths.size)
         )
         yield (
-            f"- *Rises from the first resonance on*: at 500 µm the {direction} magnitude passes "
-            f"1.5 times its value at 1 Hz at {', '.join(f'{f:.0f}' for f in first)} Hz (overlength "
-            f"{study.overlengths[0]:.2g} to {study.overlengths[-1]:.2g} %)."
+            f"- *Rises from the first resonance on*: at {study.thickest} µm the {direction} "
+            "magnitude passes 1.5 times its value at 1 Hz at "
+            f"{', '.join(f'{f:.0f}' for f in first)} Hz (overlength {study.overlengths[0]:.2g} "
+            f"to {study.overlengths[-1]:.2g} %)."
         )
     bands = ((0, 1.01), (200, 400), (400, 800))
     for direction in DIRECTIONS:
@@ -263,8 +448,8 @@ def dynamics(study: Study) -> Iterator[str]:
             level = np.exp(np.log(band).mean("frequency"))
             spreads.append(f"{float(level.max() / level.min()):.2g}")
         yield (
-            "- *Overlengths converge at high frequency*: largest over smallest of the five, "
-            f"500 µm, {direction}, at 1 Hz, over 200 to 400 and over 400 to 800 Hz: "
+            "- *Overlengths converge at high frequency*: largest over smallest of all overlengths, "
+            f"{study.thickest} µm, {direction}, at 1 Hz, over 200 to 400 and over 400 to 800 Hz: "
             f"{', '.join(spreads)}."
         )
 
@@ -295,16 +480,15 @@ def eigenfrequency(study: Study) -> Iterator[str]:
 def shapes(study: Study) -> Iterator[str]:
     """Extremes of the radial displacement, energies, crossings and yielding."""
     cube = study.cube
-    low = float(cube["radial_displacement_min"].min())
-    high = float(cube["radial_displacement_max"].max())
+    low, high = _displacement(study)
     their_low, their_high = published().radial_displacement_range_mm
     yield (
         f"- radial displacement over all {cube['status'].size}: {low:.1f} to {high:.1f} mm "
         f"(published {their_low:g} to {their_high:g} mm)"
     )
     energy = cube["membrane_energy"] + cube["bending_energy"] + cube["stabilisation_energy"]
-    mean = ", ".join(f"{e:.3g}" for e in energy.sel(thickness=500).mean("seed").values)
-    yield f"- mean strain energy at 500 µm, in the order of overlength: {mean} J"
+    mean = ", ".join(f"{e:.3g}" for e in energy.sel(thickness=study.thickest).mean("seed").values)
+    yield f"- mean strain energy at {study.thickest} µm, in the order of overlength: {mean} J"
     crossing = (cube["self_crossing_share"] > 0).sum(("thickness", "seed")).values
     cells = cube.sizes["thickness"] * cube.sizes["seed"]
     yield (
@@ -312,9 +496,10 @@ def shapes(study: Study) -> Iterator[str]:
         f"{study.overlengths[-1]:.0f} % overlength, {crossing[:-1].sum()} of "
         f"{cells * (crossing.size - 1)} below"
     )
-    share = cube["beyond_yield_share"].sel(thickness=500).mean("seed").values
+    share = cube["beyond_yield_share"].sel(thickness=study.thickest).mean("seed").values
     yield (
-        "- mean share of the surface beyond yield at 500 µm, in the order of overlength: "
+        f"- mean share of the surface beyond yield at {study.thickest} µm, in the order of "
+        "overlength: "
         f"{', '.join(f'{100 * s:.0f}' for s in share)} %"
     )
     converged = int((cube["status"] == "converged").sum())
@@ -328,21 +513,28 @@ def shapes(study: Study) -> Iterator[str]:
 
 def steps(study: Study) -> Iterator[str]:
     """Steps to the equilibrium, and what else it took."""
-    cube, ramp = study.cube, int(configuration(study.cube)["relaxation"]["ramp_steps"])
-    after, newton = cube["steps"] - ramp, cube["newton_steps"]
+    cube, config = study.cube, configuration(study.cube)
     body = []
     for thickness in study.thicknesses:
-        here = after.sel(thickness=thickness)
-        polish = newton.sel(thickness=thickness)
+        ramp = int(ramp_steps(config, thickness))
+        here = cube["steps"].sel(thickness=thickness) - ramp
+        polish = cube["newton_steps"].sel(thickness=thickness)
         body.append(
             [
                 f"{thickness} µm",
+                f"{ramp}",
                 f"{float(here.median()):.0f}, {float(here.max()):.0f}",
                 f"{float(polish.median()):g}, {float(polish.max()):g}",
                 f"{float(cube['equilibrium_residual'].sel(thickness=thickness).max()):.1e}",
             ]
         )
-    heads = ["", "steps after the ramp: median, most", "quasi-Newton steps", "residual: most"]
+    heads = [
+        "",
+        "steps of the ramp",
+        "after it: median, most",
+        "quasi-Newton steps",
+        "residual: most",
+    ]
     yield from rows(heads, body)
 
 
@@ -359,8 +551,8 @@ def costs(study: Study) -> Iterator[str]:
 
 
 def tradeoff(study: Study) -> Iterator[str]:
-    """The tables of the charts of speed against accuracy, another study's."""
-    yield from (ROOT / "results/tradeoff/tradeoff.md").read_text("utf-8").splitlines()
+    """The tables of the charts of speed against accuracy."""
+    yield from study.file("tradeoff.md").read_text("utf-8").splitlines()
 
 
 def _list(values: list[int]) -> str:
@@ -370,31 +562,45 @@ def _list(values: list[int]) -> str:
 BLOCKS = {
     each.__name__: each
     for each in (
-        law, dimensionless, trust, means, simulation, experiment, prestress, bound, variability,
-        dynamics, eigenfrequency, shapes, steps, costs, tradeoff,
+        headline, law, differences, dimensionless, beside, summary, trust, simulation,
+        experiment, prestress, bound, variability, dynamics, eigenfrequency, shapes, steps, costs,
+        tradeoff,
     )
 }  # fmt: skip
 
 
-def written(text: str, study: Study) -> str:
-    """A page with its blocks made anew."""
-    return BLOCK.sub(lambda found: found[1] + block(found[2], study) + found[4], text)
+def written(text: str, results: Path) -> str:
+    """A page with its blocks made anew of the studies below a folder."""
+    studies: dict[str, Study] = {}
+
+    def remade(found: re.Match[str]) -> str:
+        names = (found["studies"] or found["name"]).split(",")
+        named = [studies.setdefault(n, Study(results / n)) for n in map(str.strip, names)]
+        return found["head"] + block(found["name"], *named) + found["end"]
+
+    return BLOCK.sub(remade, text)
 
 
 def main() -> None:
-    """Write the pages, or say which differ."""
-    study, differ = Study(), []
+    """Write the pages, or say which differ, and what is missing for which."""
+    only_check, differ, missing = "--check" in sys.argv[1:], [], []
     for name in PAGES:
         path = ROOT / name
         before = path.read_text("utf-8")
-        after = written(before, study)
+        try:
+            after = written(before, RESULTS)
+        except Refusal as refusal:
+            missing.append(f"{name} is left as it is: {refusal}")
+            continue
         if before != after:
             differ.append(name)
-            if "--check" not in sys.argv[1:]:
+            if not only_check:
                 path.write_text(after, "utf-8")
     if differ:
-        print(f"{'differs' if '--check' in sys.argv[1:] else 'wrote'}: {', '.join(differ)}")
-    sys.exit(bool(differ) and "--check" in sys.argv[1:])
+        print(f"{'differs' if only_check else 'wrote'}: {', '.join(differ)}")
+    for sentence in missing:
+        print(sentence, file=sys.stderr)
+    sys.exit(bool(missing or (differ and only_check)))
 
 
 if __name__ == "__main__":
