@@ -1,6 +1,5 @@
 """The numbers of the studies on the pages are those of their cubes and tables."""
 
-import importlib.util
 import re
 import sys
 from pathlib import Path
@@ -16,9 +15,10 @@ from foilstudy.config import load_config
 from foilstudy.present.statistics.tables import write_tables
 
 ROOT = Path(__file__).parents[1]
-SPEC = importlib.util.spec_from_file_location("page_numbers", ROOT / "docs/page_numbers.py")
-pages = sys.modules[SPEC.name] = importlib.util.module_from_spec(SPEC)
-SPEC.loader.exec_module(pages)
+sys.path.insert(0, str(ROOT / "docs"))
+
+import page_numbers as pages  # noqa: E402
+from page_numbers import Study, block  # noqa: E402
 
 TRACKED = ("thesis", "resolved")
 """Studies of which the repository keeps cube and tables."""
@@ -34,7 +34,7 @@ def make_study(results, name, cube):
     cube = cube.assign_attrs(config=config, machine="a machine")
     folder = results / name
     write_tables(open_cube(write_cube(cube, folder / "cube.nc")), folder)
-    return pages.Study(folder)
+    return Study(folder)
 
 
 @pytest.fixture(scope="module")
@@ -52,12 +52,12 @@ def results(tmp_path_factory):
 
 
 def studies(results, *names):
-    return [pages.Study(results / name) for name in names]
+    return [Study(results / name) for name in names]
 
 
-def cells(lines):
+def cells(table):
     """Rows of a table below its head."""
-    return [[cell.strip() for cell in line.split("|")[1:-1]] for line in list(lines)[2:]]
+    return [[cell.strip() for cell in line.split("|")[1:-1]] for line in table.splitlines()[2:]]
 
 
 # --- the pages as they are -----------------------------------------------------------------------
@@ -87,7 +87,7 @@ def test_the_pages_show_the_law_of_the_resolved_study_first():
 
 @pytest.mark.parametrize("name", TRACKED)
 def test_the_tables_of_the_repository_are_those_of_its_cube(name, tmp_path):
-    study = pages.Study(ROOT / "results" / name)
+    study = Study(ROOT / "results" / name)
     for path in write_tables(study.cube, tmp_path):
         ours, kept = pd.read_csv(path), study.table(path.stem)
         pd.testing.assert_frame_equal(ours, kept, rtol=1e-4, obj=path.stem)
@@ -105,7 +105,7 @@ def test_every_block_of_a_page_can_be_made(name, results):
 
 
 def test_headline_is_the_law_of_the_first_study_with_the_others_beside_it(results):
-    rows = cells(pages.headline(*studies(results, "resolved", "thesis")))
+    rows = cells(block("headline", *studies(results, "resolved", "thesis")))
     for direction in DIRECTIONS:
         mine = [row[1:] for row in rows if row[0] == direction]
         assert [row[0] for row in mine] == [
@@ -128,7 +128,7 @@ def test_headline_is_the_law_of_the_first_study_with_the_others_beside_it(result
 
 
 def test_laws_of_a_whole_study_stand_on_the_mesh_of_the_crumple_and_with_stress(results):
-    rows = cells(pages.law(*studies(results, "thesis")))
+    rows = cells(block("law", *studies(results, "thesis")))
     axial = [row[1] for row in rows if row[0] == "axial"]
     assert axial[0] == "**5 mm, mesh limit, trusted**"
     assert "5 mm, mesh of the crumple, all" in axial
@@ -137,8 +137,8 @@ def test_laws_of_a_whole_study_stand_on_the_mesh_of_the_crumple_and_with_stress(
 
 
 def test_means_stand_beside_each_other_where_both_studies_have_them(results):
-    lines = list(pages.beside(*studies(results, "resolved", "thesis")))
-    assert lines[0] == "|  | 3.8 % | 15 % | 31 % | 54 % | 92 % |"
+    lines = block("beside", *studies(results, "resolved", "thesis"))
+    assert lines.splitlines()[0] == "|  | 3.8 % | 15 % | 31 % | 54 % | 92 % |"
     rows = cells(lines)
     assert [row[0] for row in rows] == [f"{d} {t} µm" for d in DIRECTIONS for t in (130, 250, 500)]
     for cell in (cell for row in rows for cell in row[1:]):
@@ -150,15 +150,15 @@ def test_means_stand_beside_each_other_where_both_studies_have_them(results):
 
 def test_no_law_is_made_of_what_is_not_trusted(tmp_path):
     study = make_study(tmp_path, "thesis", make_cube((50.0, 130.0), seeds=2, case=COARSE))
-    assert "**" not in "".join(pages.headline(study))
-    assert list(pages.dimensionless(study)) == [
+    assert "**" not in block("headline", study)
+    assert block("dimensionless", study).splitlines() == [
         f"- {d}: no law, as no configuration is trusted" for d in DIRECTIONS
     ]
-    assert all("not compared" in line for line in pages.differences(study))
+    assert all("not compared" in line for line in block("differences", study).splitlines())
 
 
 def test_ramps_are_those_of_each_thickness(results):
-    ramps = {row[0]: row[1] for row in cells(pages.steps(*studies(results, "resolved")))}
+    ramps = {row[0]: row[1] for row in cells(block("steps", *studies(results, "resolved")))}
     assert ramps == {"130 µm": "7692", "250 µm": "4000", "500 µm": "2000"}
 
 
