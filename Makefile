@@ -32,10 +32,10 @@ test-slow: $(DEVELOPMENT)
 	@$(BIN)/python -m pytest -m "slow or not slow"
 
 lint: $(DEVELOPMENT)
-	@$(BIN)/ruff check src tests workflow/scripts docs/page_numbers.py
+	@$(BIN)/ruff check src tests workflow/scripts docs/page_numbers.py docs/page_blocks
 
 format: $(DEVELOPMENT)
-	@$(BIN)/ruff format src tests workflow/scripts docs/page_numbers.py
+	@$(BIN)/ruff format src tests workflow/scripts docs/page_numbers.py docs/page_blocks
 	@$(BIN)/ruff check --fix src tests workflow/scripts
 
 lock: $(DEVELOPMENT)

@@ -1,57 +1,194 @@
-"""The numbers of the published study on the pages are those of its cube and tables."""
+"""The numbers of the studies on the pages are those of their cubes and tables."""
 
-import importlib.util
-import shutil
+import re
 import sys
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import pytest
+from synthetic import COARSE, DIRECTIONS, LAW, LIMIT_SHIFT, make_cube, ten_percent, write_cube
 
+from foilstudy import open_cube
+from foilstudy.base.errors import Refusal
+from foilstudy.config import load_config
 from foilstudy.present.statistics.tables import write_tables
 
 ROOT = Path(__file__).parents[1]
+sys.path.insert(0, str(ROOT / "docs"))
+
+import page_numbers as pages  # noqa: E402
+from page_numbers import Study, block  # noqa: E402
+
+TRACKED = ("thesis", "resolved")
+"""Studies of which the repository keeps cube and tables."""
+STIFFER = 3.0
+"""What the synthetic resolved study is stiffer by at each of its thicknesses."""
+
+
+def make_study(results, name, cube):
+    """A study below a folder of results, of the configuration of that name."""
+    config = load_config(ROOT / f"config/{name}.yaml").to_yaml()
+    angle = np.full((cube.sizes["thickness"], cube.sizes["overlength"], cube.sizes["seed"]), 45.0)
+    cube["fold_angle"] = cube["status"].dims, angle
+    cube = cube.assign_attrs(config=config, machine="a machine")
+    folder = results / name
+    write_tables(open_cube(write_cube(cube, folder / "cube.nc")), folder)
+    return Study(folder)
 
 
 @pytest.fixture(scope="module")
-def pages():
-    spec = importlib.util.spec_from_file_location("page_numbers", ROOT / "docs/page_numbers.py")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
-    return module
+def results(tmp_path_factory):
+    """Both studies, with known laws; on 5 mm the mesh resolves the thicker foils only."""
+    folder = tmp_path_factory.mktemp("results")
+    resolved = make_cube((130.0, 250.0, 500.0), cv=ten_percent)
+    for name in ("static_stiffness", "static_stiffness_converged", "static_stiffness_mesh_error"):
+        resolved[name] = STIFFER * resolved[name]
+    make_study(folder, "resolved", resolved)
+    make_study(folder, "thesis", make_cube(cv=ten_percent, case=COARSE))
+    (folder / "tradeoff").mkdir()
+    (folder / "tradeoff/tradeoff.md").write_text("| a | table |\n", "utf-8")
+    return folder
 
 
-@pytest.fixture(scope="module")
-def study(pages):
-    return pages.Study()
+def studies(results, *names):
+    return [Study(results / name) for name in names]
 
 
-def test_every_page_says_what_the_study_says(pages, study):
-    found = set()
-    for name in pages.PAGES:
-        text = (ROOT / name).read_text("utf-8")
-        assert pages.written(text, study) == text, f"{name}: run docs/page_numbers.py"
-        found |= {block for _, block, _, _ in pages.BLOCK.findall(text)}
-    assert found <= set(pages.BLOCKS)
-    assert {"law", "trust", "simulation", "experiment", "shapes", "costs"} <= found
+def cells(table):
+    """Rows of a table below its head."""
+    return [[cell.strip() for cell in line.split("|")[1:-1]] for line in table.splitlines()[2:]]
 
 
-def test_another_table_makes_another_page(pages, study, tmp_path):
-    shutil.copytree(study.folder, tmp_path / "thesis")
-    table = pd.read_csv(tmp_path / "thesis/powerlaw.csv")
-    table["gamma"] += 0.5
-    table.to_csv(tmp_path / "thesis/powerlaw.csv", index=False)
-    text = (ROOT / "README.md").read_text("utf-8")
-    other = pages.written(text, pages.Study(tmp_path / "thesis"))
-    different = [a for a, b in zip(text.splitlines(), other.splitlines(), strict=True) if a != b]
-    laws = tuple(
-        mark.format(d) for mark in ("| {}, ", "- {}: k/(E t)") for d in ("axial", "radial")
-    )
-    assert different and all(line.startswith(laws) for line in different)
+# --- the pages as they are -----------------------------------------------------------------------
 
 
-def test_the_tables_of_the_repository_are_those_of_its_cube(study, tmp_path):
+@pytest.mark.parametrize("name", pages.PAGES)
+def test_every_page_says_what_its_studies_say(name):
+    text = (ROOT / name).read_text("utf-8")
+    assert pages.written(text, pages.RESULTS) == text, f"{name}: run docs/page_numbers.py"
+
+
+def test_the_pages_show_the_law_of_the_resolved_study_first():
+    found = {
+        (match["name"], match["studies"])
+        for name in pages.PAGES
+        for match in pages.BLOCK.finditer((ROOT / name).read_text("utf-8"))
+    }
+    assert {name for name, _ in found} == set(pages.BLOCKS)
+    readme = (ROOT / "README.md").read_text("utf-8")
+    (law,) = (m for m in pages.BLOCK.finditer(readme) if m["name"] == "headline")
+    assert law["studies"] == "resolved, thesis"
+    for wanted in ("law", "beside", "summary"):
+        assert (wanted, "resolved, thesis") in found
+    for study in TRACKED:
+        assert {("trust", study), ("simulation", study), ("experiment", study)} <= found
+
+
+@pytest.mark.parametrize("name", TRACKED)
+def test_the_tables_of_the_repository_are_those_of_its_cube(name, tmp_path):
+    study = Study(ROOT / "results" / name)
     for path in write_tables(study.cube, tmp_path):
         ours, kept = pd.read_csv(path), study.table(path.stem)
         pd.testing.assert_frame_equal(ours, kept, rtol=1e-4, obj=path.stem)
+
+
+# --- what they are made of -----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", pages.PAGES)
+def test_every_block_of_a_page_can_be_made(name, results):
+    text = (ROOT / name).read_text("utf-8")
+    made = pages.written(text, results)
+    assert pages.written(made, results) == made
+    assert not re.search(r"\bnan\b", "".join(m["text"] for m in pages.BLOCK.finditer(made)))
+
+
+def test_headline_is_the_law_of_the_first_study_with_the_others_beside_it(results):
+    rows = cells(block("headline", *studies(results, "resolved", "thesis")))
+    for direction in DIRECTIONS:
+        mine = [row[1:] for row in rows if row[0] == direction]
+        assert [row[0] for row in mine] == [
+            "**resolved to 10 %, mesh limit, all**",  # of which none is distrusted
+            "5 mm, mesh limit, trusted",
+            "5 mm, mesh limit, all",
+            "5 mm, mesh limit, 130, 250, 500 µm",
+            "published simulation",
+            "published experiment",
+        ]
+        _, beta, gamma = LAW[direction]
+        for row, n in zip(mine[:4], (90, 60, 120, 90), strict=True):
+            assert float(row[2].split()[0]) == pytest.approx(beta, abs=0.02)
+            # the smaller sample of trusted ones knows less of the exponent
+            assert float(row[3].split()[0]) == pytest.approx(gamma + LIMIT_SHIFT, abs=0.1)
+            assert row[5] == str(n) and all("±" in cell for cell in row[1:4])
+        levels = [float(row[1].split()[0]) for row in (mine[0], mine[3])]
+        assert levels[0] - levels[1] == pytest.approx(np.log(STIFFER), abs=0.02)
+    assert len(rows) == 12
+
+
+def test_laws_of_a_whole_study_stand_on_the_mesh_of_the_crumple_and_with_stress(results):
+    rows = cells(block("law", *studies(results, "thesis")))
+    axial = [row[1] for row in rows if row[0] == "axial"]
+    assert axial[0] == "**5 mm, mesh limit, trusted**"
+    assert "5 mm, mesh of the crumple, all" in axial
+    assert "5 mm, pre-stressed, mesh of the crumple, all" in axial
+    assert len([row for row in rows if "**" in row[1]]) == 2
+
+
+def test_means_stand_beside_each_other_where_both_studies_have_them(results):
+    lines = block("beside", *studies(results, "resolved", "thesis"))
+    assert lines.splitlines()[0] == "|  | 3.8 % | 15 % | 31 % | 54 % | 92 % |"
+    rows = cells(lines)
+    assert [row[0] for row in rows] == [f"{d} {t} µm" for d in DIRECTIONS for t in (130, 250, 500)]
+    for cell in (cell for row in rows for cell in row[1:]):
+        ratio, low, high = map(float, re.fullmatch(r"(\S+) \[(\S+), (\S+)\]", cell).groups())
+        assert ratio == STIFFER
+        # of two means of six that scatter by a tenth, half the width of each times sqrt(2)
+        assert np.log(high / low) / 2 == pytest.approx(2.57 * 0.1 / 6**0.5 * 2**0.5, rel=0.15)
+
+
+def test_no_law_is_made_of_what_is_not_trusted(tmp_path):
+    study = make_study(tmp_path, "thesis", make_cube((50.0, 130.0), seeds=2, case=COARSE))
+    assert "**" not in block("headline", study)
+    assert block("dimensionless", study).splitlines() == [
+        f"- {d}: no law, as no configuration is trusted" for d in DIRECTIONS
+    ]
+    assert all("not compared" in line for line in block("differences", study).splitlines())
+
+
+def test_ramps_are_those_of_each_thickness(results):
+    ramps = {row[0]: row[1] for row in cells(block("steps", *studies(results, "resolved")))}
+    assert ramps == {"130 µm": "7692", "250 µm": "4000", "500 µm": "2000"}
+
+
+def test_a_missing_study_is_named_with_the_command_that_makes_it(results, tmp_path):
+    for name, command in (
+        ("resolved", "make study CONFIG=config/resolved.yaml"),
+        ("tradeoff", "snakemake -j1 tradeoff"),
+    ):
+        block = "tradeoff" if name == "tradeoff" else "trust of resolved"
+        text = f"<!-- numbers: {block} -->\n<!-- end -->\n"
+        with pytest.raises(Refusal, match=f"results/{name}/.* is missing; `.*{command}` makes it"):
+            pages.written(text, tmp_path)
+        assert pages.written(text, results) != text
+
+
+def test_a_page_whose_study_is_missing_is_left_and_the_others_are_written(
+    results, tmp_path, monkeypatch, capsys
+):
+    for name, study in (("a.md", "thesis"), ("b.md", "other")):
+        (tmp_path / name).write_text(f"<!-- numbers: bound of {study} -->\n<!-- end -->\n", "utf-8")
+    for name, value in (
+        ("ROOT", tmp_path),
+        ("PAGES", ("b.md", "a.md")),
+        ("RESULTS", results),
+    ):
+        monkeypatch.setattr(pages, name, value)
+    monkeypatch.setattr(sys, "argv", ["page_numbers.py"])
+    with pytest.raises(SystemExit, match="True|1"):
+        pages.main()
+    said = capsys.readouterr()
+    assert said.out == "wrote: a.md\n"
+    assert said.err.startswith("b.md is left as it is: results/other/cube.nc is missing")
+    assert "No crumple (5 mm) exceeds" in (tmp_path / "a.md").read_text("utf-8")

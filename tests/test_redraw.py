@@ -20,7 +20,7 @@ from foilstudy.present.redraw import redraw
 from foilstudy.present.shown import note_origin
 from foilstudy.present.statistics.tables import TABLES
 
-THESIS = Path(__file__).parents[1] / "results" / "thesis"
+RESULTS = Path(__file__).parents[1] / "results"
 OF_RECORDS = [name for name, figure in FIGURES.items() if figure.needs != ("cube",)]
 
 
@@ -91,17 +91,21 @@ def test_folder_without_a_cube_is_refused(tmp_path):
 
 
 @pytest.mark.slow
-def test_published_study_is_drawn_from_its_cube_as_it_is_tracked(tmp_path):
-    study = tmp_path / "thesis"
-    shutil.copytree(THESIS, study)
+@pytest.mark.parametrize("name", ["thesis", "resolved"])
+def test_published_case_is_drawn_from_its_cube_as_it_is_tracked(tmp_path, name):
+    tracked, study = RESULTS / name, tmp_path / name
+    shutil.copytree(tracked, study)
     for table in TABLES:
         (study / f"{table}.csv").unlink()
     redrawn = redraw(study)
     assert "morphology" in redrawn.kept
     for table in TABLES:
         pd.testing.assert_frame_equal(
-            pd.read_csv(study / f"{table}.csv"), pd.read_csv(THESIS / f"{table}.csv"), rtol=1e-5
+            pd.read_csv(study / f"{table}.csv"), pd.read_csv(tracked / f"{table}.csv"), rtol=1e-5
         )
     page = (study / "report.html").read_text("utf-8")
-    assert "120 of 120 realisations converged" in page
+    status = open_cube(study / "cube.nc")["status"]
+    converged = int((status == "converged").sum())
+    assert f"{converged} of {status.size} realisations converged" in page
+    assert "Published simulation" in page and "nothing published" not in page
     assert "data:image/png" in page.split('id="figure-morphology"')[1].split("</figure>")[0]

@@ -7,6 +7,7 @@ import json
 import math
 import re
 from html.parser import HTMLParser
+from pathlib import Path
 
 import netCDF4
 import numpy as np
@@ -25,6 +26,7 @@ from synthetic import (
 
 from foilstudy.base.numerals import fixed, number, percent_range
 from foilstudy.base.record import read_record
+from foilstudy.config import load_config
 from foilstudy.present.configuration import configuration
 from foilstudy.present.files import StudyFiles
 from foilstudy.present.report import write_report
@@ -53,6 +55,7 @@ from foilstudy.present.statistics.summary import stiffness_summary
 from foilstudy.present.statistics.tables import write_tables
 from foilstudy.present.statistics.variability import variability_table
 
+CONFIGS = Path(__file__).parents[1] / "config"
 PIXEL = base64.b64decode(
     "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAQAAAC1HAwCAAAAC0lEQVR42mNk+A8AAQUBAScY42YAAAAASUVORK5CYII="
 )
@@ -137,6 +140,21 @@ def study(tmp_path_factory):
     (benchmarks / "cube.tsv").write_text("s\th:m:s\tmax_rss\tcpu_time\n0.1\t0:00:00\t-\t-\n")
     out = write_report(files, folder / "report.html")
     return files, out.read_text("utf-8")
+
+
+@pytest.mark.parametrize("name", ["thesis", "resolved"])
+def test_published_results_stand_beside_the_published_case_on_any_mesh(tmp_path, name):
+    study = load_config(CONFIGS / f"{name}.yaml")
+    cube = make_cube(
+        tuple(study.sweep.thickness_um), tuple(study.sweep.reference_height_mm), 2, cv=ten_percent
+    )
+    files = make_study(tmp_path, cube.assign_attrs(config=study.to_yaml()))
+    page = words(write_report(files, tmp_path / "report.html").read_text("utf-8"))
+    for source in ("simulation", "experiment"):
+        assert page.count(f"Published {source}") >= 2  # a row of the table for each direction
+    assert "Structural Dynamics of Crumpled Thin Sheets" in page
+    assert "nothing published" not in page
+    assert f"at {study.sweep.thickness_um[-1]:g} µm (published −2.42" in page
 
 
 class Resources(HTMLParser):

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pandas as pd
 import pytest
+import yaml
 from scipy import stats
 from synthetic import COARSE, EXPONENT, FAILED, LAW, PET, SyntheticCase, make_cube
 
 from foilstudy.base.reference import PowerLaw, published
+from foilstudy.config import load_config
 from foilstudy.present.comparison import comparable, comparison_sentence
 from foilstudy.present.statistics.cells import samples
 from foilstudy.present.statistics.eigenfrequency import eigenfrequency_table
@@ -33,6 +37,7 @@ from foilstudy.present.statistics.variability import (
     variability_table,
 )
 
+CONFIG = Path(__file__).parents[1] / "config"
 KEYS = {"alpha": "constant", "beta": "overlength", "gamma": "thickness"}
 
 
@@ -470,6 +475,28 @@ def test_the_published_case_bears_what_a_handbook_leaves_open():
     # the heights make the same overlengths in the other gap
     cube = make_cube(reference_height_mm=(137.0, 170.0, 250.0), seeds=1, case=near)
     assert comparable(cube) is not None and comparison_sentence(cube) == ""
+
+
+@pytest.mark.parametrize("accuracy", ["quick", "fine"])
+@pytest.mark.parametrize(
+    "imperfection",
+    [
+        {"kind": "gaussian", "amplitude_um": 10},
+        {"kind": "smoothed", "amplitude_um": 100, "correlation_length_mm": 30},
+        {"kind": "buckling_modes", "amplitude_um": 50},
+    ],
+)
+def test_the_published_case_may_have_any_imperfection_mesh_and_part_of_the_sweep(
+    imperfection, accuracy
+):
+    raw = yaml.safe_load((CONFIG / "resolved.yaml").read_text("utf-8"))
+    study = load_config(raw | {"imperfection": imperfection, "accuracy": accuracy})
+    for thickness, heights in ((130.0, 250.0, 500.0), (135.0, 250.0)), ((250.0,), (170.0,)):
+        cube = make_cube(thickness, heights, seeds=2).assign_attrs(config=study.to_yaml())
+        assert comparable(cube) is not None and comparison_sentence(cube) == ""
+        assert powerlaw_table(cube)["source"].str.startswith("published").sum() == 4
+        for table in (stiffness_summary(cube), eigenfrequency_table(cube)):
+            assert [name for name in table if "published" in name]
 
 
 def published_material():

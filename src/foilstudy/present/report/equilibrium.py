@@ -68,7 +68,7 @@ class Equilibrium:
         return max((row.worst_residual for row in self.thicknesses), default=np.nan)
 
 
-def _ramp_steps(config: Mapping, thickness_um: float) -> float:
+def ramp_steps(config: Mapping, thickness_um: float) -> float:
     """Steps of the ramp of one thickness; NaN where the configuration does not say."""
     if "relaxation" not in config or "sheet" not in config:
         return np.nan
@@ -105,7 +105,7 @@ def assess_equilibrium(cube: xr.Dataset, config: Mapping) -> Equilibrium:
                     int(there.sel(at).sum()),
                     int(settled.sel(at).sum()),
                     residuals.highest,
-                    Spread.of(steps.sel(at) - _ramp_steps(config, thickness)),
+                    Spread.of(steps.sel(at) - ramp_steps(config, thickness)),
                     Spread.of(newton_steps.sel(at)),
                 )
             )
