@@ -353,3 +353,25 @@ def test_the_default_has_no_soft_modes_that_are_not_of_the_shell(slenderness):
     fine = frequencies(Sampled(sampling.gauss(2)), 20, thickness)
     np.testing.assert_allclose(coarse, fine, rtol=0.12)
     assert (coarse > 0.95 * fine).all()
+
+
+@pytest.mark.parametrize("around", [9, 12, 20, 24])
+def test_an_open_patch_whose_ends_meet_is_no_other(around):
+    """What the vectorised kernel reads beyond the ends may have no area."""
+    along = 4
+    patch = Patch(around, along, 0.3 / around, 0.05, periodic=False)
+    closed = np.arange(patch.columns) % around
+    angle = 2 * np.pi * closed / around
+    points = np.empty(patch.shape)
+    points[0], points[1] = 0.05 * np.cos(angle), 0.05 * np.sin(angle)
+    points[2] = 0.05 * (np.arange(patch.rows) - 0.5)[:, None]
+    assert np.array_equal(points[..., :2], points[..., -2:])
+    bent = points * np.array([1.1, 0.9, 1.0])[:, None, None]
+    share = Corner().share(Shell.elastic(patch, points, FEP, 1e-4).section)
+    forces = []
+    for element in (Corner(), Sampled(sampling.corner(share))):
+        shell = Shell.elastic(patch, points, FEP, 1e-4, element)
+        force = np.empty_like(points)
+        assert np.isfinite(shell.force(bent, force)).all()
+        forces.append(force)
+    np.testing.assert_allclose(*forces, rtol=0, atol=1e-9 * np.abs(forces[1]).max())

@@ -67,7 +67,7 @@ def test_what_a_user_prints_fits_two_lines(start, structure, model):
         EvenGrid.of(model, OPTIONS.damping, 1.0, 100.0), load_config("config/thesis.yaml"),
     ]  # fmt: skip
     for each in objects:
-        assert 10 < len(repr(each)) <= 230 and "\n" not in repr(each), type(each)
+        assert 10 < len(repr(each)) <= 210 and "\n" not in repr(each), type(each)
     assert str(load_config("config/thesis.yaml")) == (
         "<StudyConfig: thesis, 4 thicknesses x 5 heights x 6 realisations>"
     )

@@ -55,6 +55,8 @@ def available() -> bool:
     return library() is not None
 
 
+_NOT_DEFINITE = (-4, -13)
+"""Codes of a pivot that is not positive."""
 _POINTER = ctypes.c_void_p
 _DTYPES = {
     _SYMMETRIC_DEFINITE: np.float64,
@@ -169,6 +171,7 @@ def _give_back(job: _Job) -> None:
         job.run(_RELEASE, empty, empty)
         return
     job.run(_RELEASE_FACTORS, empty, empty)
+    job.values = empty
     _analysed.append(job)
     if len(_analysed) > _KEPT:
         _analysed.pop(0).run(_RELEASE, empty, empty)
@@ -206,6 +209,8 @@ class PardisoFactorisation:
     def _run(self, phase: int, rhs: np.ndarray) -> np.ndarray:
         solution = np.empty_like(rhs)
         error = self._job.run(phase, rhs, solution)
+        if error in _NOT_DEFINITE and self._job.pattern.kind == _SYMMETRIC_DEFINITE:
+            raise SolveError("the matrix is not positive definite")  # either code, by chance
         if error != 0:
             raise SolveError(f"Pardiso ended phase {phase} with error {error}")
         return solution

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Self
 
 from foilstudy.base.ranges import require_number
@@ -38,7 +38,7 @@ class Mesh:
 
     element_size: float
     element: str = "corner"
-    ramp_coarsenings: int = 0
+    ramp_coarsenings: int = field(default=0, repr=False)
 
     def __post_init__(self):
         require_number("element size of a mesh", self.element_size, "m", above=0)

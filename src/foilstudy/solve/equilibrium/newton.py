@@ -56,7 +56,7 @@ class NewtonOptions:
         Quasi-Newton steps at most before the Hessian is formed anew; 1 is Newton's method.
     metric : csr_matrix, optional
         Positive definite M of the shift, (n, n), of any size (it is scaled to the Hessian at the
-        start), for a Hessian that is not in blocks. Default: the identity.
+        start). Default: the identity.
     stop_at_saddle : bool
         Whether to end, a step along the lowest eigenvector lower, where the first Hessian is
         indefinite, and leave the way down from there to who is faster on long ways.
@@ -195,6 +195,8 @@ class _Search:
 
     def _hessian(self) -> Hessian:
         hessian = self._potential.hessian(self._point.q)
+        if self._options.metric is not None:
+            hessian = _sparse(hessian)  # blocks are shifted along the identity
         if self._metric is None:
             metric = self._options.metric
             if metric is None:

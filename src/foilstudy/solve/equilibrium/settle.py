@@ -23,9 +23,9 @@ from foilstudy.solve.relaxation import Motion, Ramp, StoppingRule, relax
 from foilstudy.solve.residual import relative_residual
 
 _NO_MOTION = Ramp(0.0, 0)
-_OFF_SADDLE, _LOOSER = 2000, 10.0
-"""Steps of relaxation at least once a saddle has been left, as the motion begins slowly, and how
-much earlier it ends: the sheet may come to another saddle."""
+_OFF_SADDLE, _NEXT_SADDLE = 2000, 1e-3
+"""Steps of relaxation at least once a saddle has been left, as the motion begins slowly, and the
+residual at which it ends at the latest: the sheet may come to another saddle."""
 _FREE = slice(RING_ROWS, -RING_ROWS)
 
 
@@ -167,7 +167,7 @@ def settle(
     for each in range(options.rounds_max):
         residual = max(options.switch_residual / 3 ** (each - saddles), options.residual_tolerance)
         if steps_min:
-            residual = _LOOSER * options.switch_residual
+            residual = max(_NEXT_SADDLE, options.switch_residual)
         left = options.relaxation_steps_max - steps
         rule = StoppingRule(residual, left, relaxation_steps_min=min(steps_min, left))
         relaxed = relax(problem, motion, _NO_MOTION, rule, points)

@@ -37,6 +37,7 @@ _G1, _G2, _G11, _G12, _G22 = 28, 31, 34, 37, 40  # of the elements, conjugate to
 _FP, _FQ, _OUT = 43, 46, 49  # force so far on rows P and Q; force on row P once it is complete
 _ENERGY = 52  # membrane, bending, stabilisation
 _ROWS = 55
+_NO_AREA = 1e-200
 
 
 @njit(cache=True, fastmath=True, error_model="numpy")
@@ -319,7 +320,8 @@ def _bend(w, data, steps, i1, i2, bend):
         nx = y1 * z2 - z1 * y2
         ny = z1 * x2 - x1 * z2
         nz = x1 * y2 - y1 * x2
-        ri = 1.0 / (nx * nx + ny * ny + nz * nz)
+        # a place beyond an open edge has no law, but may have no area either
+        ri = 1.0 / (nx * nx + ny * ny + nz * nz + _NO_AREA)
         j0 = data[16 * _DW + k]
         b1 = data[13 * _DW + k]
         b2 = data[14 * _DW + k]
