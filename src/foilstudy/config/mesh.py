@@ -45,7 +45,7 @@ class Mesh(Section):
     ramp_coarsenings: int = unit_field(
         "1",
         "How often the elements are doubled for the ramp; the crumple is then refined, and relaxed "
-        "on every mesh.",
+        "on every mesh, each with the most steps that there may be.",
         0,
         ge=0,
         le=3,

@@ -237,11 +237,17 @@ def _configuration(study: StudyConfig, cell: Cell, model: CostModel) -> Expected
     meshes = tuple(4**level * elements for level in range(refinements + 1))
     relaxed = [4**level * elements for level in range(1, study.stiffness.relaxed_refinements + 1)]
     relaxing = min(model.steps_after_ramp(slenderness), study.relaxation.relaxation_steps_max)
-    steps = task.relaxation.ramp_steps + round(relaxing)
+    ramp, halvings = task.relaxation.ramp_steps, task.mesh.ramp_coarsenings
+    steps = ramp + round(relaxing)
+    # relaxed on every mesh from that of the ramp on
+    crumpling = model.crumple_seconds(elements, steps if not halvings else relaxing)
+    for level in range(1, halvings + 1):
+        steps_there = relaxing + (ramp if level == halvings else 0)
+        crumpling += model.crumple_seconds(elements / 4**level, steps_there)
     coordinates = model.reduced_coordinates(slenderness, study.dynamics.shown_max_hz)
     dynamic = model.dynamic_seconds(elements, coordinates)
     seconds = {
-        "crumple": model.crumple_seconds(elements, steps),
+        "crumple": crumpling,
         "response": model.static_seconds(meshes) + dynamic,
     }
     if relaxed:
