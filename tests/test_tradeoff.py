@@ -18,10 +18,11 @@ from foilstudy.pipeline.crumpled import Recipe
 from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.study.kernel.files import read_records
 from foilstudy.study.tradeoff import ensembles, figures, panel, tables
+from foilstudy.study.tradeoff.adaptive import present
 from foilstudy.study.tradeoff.frozen import Static
 from foilstudy.study.tradeoff.knees import beaten
 from foilstudy.study.tradeoff.pace import in_turns
-from foilstudy.study.tradeoff.plan import LADDERS, STUDY
+from foilstudy.study.tradeoff.plan import LADDERS, RESOLVED, STUDY
 from foilstudy.study.tradeoff.points import bias, default_of, text_of
 from foilstudy.study.tradeoff.settings import Point, changed, read_settings, value_at
 
@@ -129,6 +130,15 @@ def test_what_came_to_no_rest_does_not_count_in_a_mean():
     assert bias(true, true).scatter == pytest.approx(0.2)
 
 
+ADAPTIVE = {
+    "elements": 24, "energy": 1.0, "levels": [[0, 0, 1, 1, 1, 1], [0, 0, 1, 1, 1, 1]] * 2,
+    "shares": [0, 0, 0.25, 0.75, 0, 0], "errors": [0.05, 0.2, 0.4, 0.6],
+    "gain": {"ideal": 3.0, "unbalanced": 2.2, "tree": 2.0, "graded": 1.2}, "kernel": 8.0,
+    "ramp": {"steps": [0.5, 1.0], "shortening": [0.5, 1.0], "size": [2.0, 1.0], "share": 0.4,
+             "by_stage": 0.15, "coarsened": 0.5},
+}  # fmt: skip
+
+
 @pytest.fixture
 def study(tmp_path):
     """Made-up records: a time and an error for each point, one setting of each ladder without."""
@@ -140,6 +150,8 @@ def study(tmp_path):
         for t in (500, 50)
         for size in (5.0, 2.5, 1.25)
     ]
+    for case in RESOLVED:
+        results["adaptive"][case] = ADAPTIVE
     for case in STUDY.part("shapes").cases:
         results["shapes"][case] = {"points": np.zeros((3, 2, 2)), "dynamic": [1.0]} | {
             "static": [100.0, 200.0],
@@ -219,6 +231,15 @@ def test_every_figure_is_drawn_with_a_panel_for_each_family_and_quantity(study):
     assert {"250", "2000", "one point"} <= texts
     exponents = [text.get_text() for text in figures.run_time(study).axes[0].legend_.texts]
     assert exponents[0] == "500 µm: exponent -2.00 ± 0.00"
+
+
+def test_what_adapting_saves_is_a_row_and_a_map_for_each_crumple(study):
+    rows = list(csv.DictReader(csv_text(present.rows(study)).splitlines()))
+    assert [row["thickness_um"] for row in rows] == [str(c.thickness_um) for c in RESOLVED]
+    assert float(rows[0]["gain_with_kernel"]) == pytest.approx(0.25)
+    assert float(rows[0]["area_2h"]) == 0.25 and float(rows[0]["area_1h"]) == 0.75
+    maps = [image.get_array() for ax in present.figure(study).axes for image in ax.images]
+    assert [image.shape for image in maps] == [(4, 6)] * len(RESOLVED)
 
 
 # --- the knees -----------------------------------------------------------------------------------

@@ -66,7 +66,13 @@ def _ladders(settings: Settings) -> Iterator[Ladder]:
 
 
 # an installed package has no workflow, and no settings beside it
-LADDERS = tuple(_ladders(read_settings(FILE))) if FILE.is_file() else ()
+_SETTINGS = read_settings(FILE) if FILE.is_file() else None
+LADDERS = tuple(_ladders(_SETTINGS)) if _SETTINGS else ()
+RESOLVED = tuple(
+    CrumpleCase("corner", one.thickness_um, one.height_mm, one.size_mm, 0)
+    for one in (_SETTINGS.adaptive if _SETTINGS else ())
+)
+"""Crumples of which it is asked what an adaptive mesh would save."""
 
 
 def shape_of(point: Point) -> CrumpleCase:
@@ -113,12 +119,20 @@ STUDY = Study(
             needs={"shapes": _needed},
             memory_mb=3000,
         ),
+        Part(
+            "adaptive",
+            RESOLVED,
+            Lazy(f"{_HERE}.adaptive.measure:measure"),
+            arrays=("levels",),
+            memory_mb=3000,
+        ),
         Part("steps", ("all",), Lazy("foilstudy.study.convergence.timing:run_timing")),
     ),
     findings=Lazy(f"{_HERE}.points:gathered"),
     tables={
         "tradeoff.csv": Lazy(f"{_HERE}.tables:rows"),
         "tradeoff.md": Lazy(f"{_HERE}.tables:page"),
+        "adaptive.csv": Lazy(f"{_HERE}.adaptive.present:rows"),
     },
     figures={
         **{name: Lazy(f"{_HERE}.figures:{name}") for name in ("panel", "static", "dynamic")},
@@ -130,5 +144,6 @@ STUDY = Study(
             if ladder.part == "ensembles"
         },
         "run_time": Lazy(f"{_HERE}.figures:run_time"),
+        "adaptive": Lazy(f"{_HERE}.adaptive.present:figure"),
     },
 )

@@ -87,10 +87,11 @@ class Row:
 
 @dataclass(frozen=True)
 class Gathered:
-    """All rows, and the times of a step by thickness and element size."""
+    """All rows, the times of a step by thickness and element size, and what adapting would save."""
 
     rows: tuple[Row, ...]
     steps: list[dict]
+    adaptive: dict[Any, dict]
 
     def of(self, **wanted: Any) -> list[Row]:
         """Rows whose attributes have these values."""
@@ -100,7 +101,8 @@ class Gathered:
 def gathered(records: Records) -> Gathered:
     """Rows of all ladders, in the order of the plan."""
     rows = [row for ladder in LADDERS for row in _fronts(_rows(ladder, records))]
-    return Gathered(tuple(rows), records["steps"]["all"].result)
+    adaptive = {case: record.result for case, record in records["adaptive"].items()}
+    return Gathered(tuple(rows), records["steps"]["all"].result, adaptive)
 
 
 def _rows(ladder: Ladder, records: Records) -> Iterator[Row]:

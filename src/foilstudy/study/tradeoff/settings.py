@@ -82,12 +82,21 @@ class Ensemble(Section):
     settings: tuple[Family, ...] = pydantic.Field(**_List)
 
 
+class Resolved(Section):
+    """A crumple on the mesh that resolves it."""
+
+    thickness_um: int
+    height_mm: int
+    size_mm: float
+
+
 class Settings(Section):
-    """All that the study changes."""
+    """All that the study changes, and the crumples whose elements are counted."""
 
     panel: tuple[Family, ...] = pydantic.Field(**_List)
     frozen: Frozen
     ensembles: tuple[Ensemble, ...] = pydantic.Field(**_List)
+    adaptive: tuple[Resolved, ...] = pydantic.Field(**_List)
 
 
 @dataclass(frozen=True)
