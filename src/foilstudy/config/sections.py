@@ -391,7 +391,8 @@ class Stiffness(Section):
         "%",
         "Largest mesh error of the stress-free stiffness of the crumpled shape, axial and radial, "
         "by its own estimate: the shape is refined until that meets it and no further, "
-        "`refinements` times at most; the estimate is measured for the corner element. If that number is given and this is not, the shape is "
+        "`refinements` times at most; the estimate is measured for the corner element. "
+        "If that number is given and this is not, the shape is "
         "refined so often. " + tier_words("stiffness.error_percent"),
         None,
         ge=0.01,
