@@ -1,50 +1,42 @@
-"""Measure what the package costs and write benchmarks/results.md.
+"""Measure what jobs and studies cost, a section of benchmarks/results.md.
 
     .venv/bin/python benchmarks/run.py                                 parts of a job, a minute
     .venv/bin/python benchmarks/run.py config/config.yaml [...]        whole studies as well
 
 Medians of several runs on one core; studies with `snakemake -j2 --forceall`, which makes their
-results again. Run it on a machine that does nothing else.
+results again. Run it on a machine that does nothing else. `kernel.py` has the kernels.
 """
 
 from __future__ import annotations
 
 import os
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from itertools import product
+from pathlib import Path
 
-for variable in ("OMP", "MKL", "OPENBLAS", "NUMBA"):
-    os.environ[f"{variable}_NUM_THREADS"] = "1"
+from measuring import REPEATS, ROOT, physics_share, timed, write_section
 
-import resource  # noqa: E402
-import statistics  # noqa: E402
-import subprocess  # noqa: E402
-import sys  # noqa: E402
-import tempfile  # noqa: E402
-import time  # noqa: E402
-from collections.abc import Callable  # noqa: E402
-from itertools import product  # noqa: E402
-from pathlib import Path  # noqa: E402
+from foilstudy.base.provenance import machine
+from foilstudy.base.record import read_record
+from foilstudy.base.tables import markdown_table
+from foilstudy.config import load_config
+from foilstudy.pipeline.crumple import uncrumpled
+from foilstudy.pipeline.method import Mesh
+from foilstudy.solve.problem import Problem
+from foilstudy.solve.relaxation import Ramp, Scheme, StoppingRule, relax
+from foilstudy.study.published import foil
+from foilstudy.study.sweep.crumple import crumple_job
+from foilstudy.study.sweep.respond import respond_job
+from foilstudy.study.sweep.warmup import compile_kernels
 
-import numpy as np  # noqa: E402
-
-from foilstudy.base.provenance import machine  # noqa: E402
-from foilstudy.base.record import read_record  # noqa: E402
-from foilstudy.config import load_config  # noqa: E402
-from foilstudy.model.foil import Foil  # noqa: E402
-from foilstudy.model.materials import material  # noqa: E402
-from foilstudy.pipeline.crumple import uncrumpled  # noqa: E402
-from foilstudy.pipeline.method import Mesh  # noqa: E402
-from foilstudy.solve.problem import Problem  # noqa: E402
-from foilstudy.solve.relaxation import Ramp, Scheme, StoppingRule, relax  # noqa: E402
-from foilstudy.solve.relaxation.mass.spectral import SpectralMassScaling  # noqa: E402
-from foilstudy.study.sweep.crumple import crumple_job  # noqa: E402
-from foilstudy.study.sweep.respond import respond_job  # noqa: E402
-from foilstudy.study.sweep.warmup import compile_kernels  # noqa: E402
-
-ROOT = Path(__file__).parents[1]
 SCRIPTS = ROOT / "workflow/scripts"
 JOB = [sys.executable, "-I", "-S", str(SCRIPTS / "job.py"), str(SCRIPTS / "call.py")]
-REPEATS = 7
-FOIL = Foil(0.2, 0.17, 0.13, 500e-6, material("FEP"))
+FOIL = foil(500, 170)
 
 
 def task_study(height_mm: float, **relaxation):
@@ -64,39 +56,11 @@ def task_study(height_mm: float, **relaxation):
     )
 
 
-def median_seconds(call: Callable[[], object], inner: int = 1) -> float:
-    """Median time of one call, over `REPEATS` batches of `inner` calls."""
-    times = []
-    for _ in range(REPEATS):
-        start = time.perf_counter()
-        for _ in range(inner):
-            call()
-        times.append((time.perf_counter() - start) / inner)
-    return statistics.median(times)
-
-
-def kernel_rows() -> list[tuple[str, str]]:
-    """Force evaluation and mass solve per element."""
-    start = uncrumpled(FOIL, Mesh(5e-3))
-    shell, patch = start.stressed, start.patch
-    points = start.reference + 1e-3 * np.random.default_rng(0).standard_normal(patch.shape)
-    force = np.empty_like(points)
-    mass = SpectralMassScaling().start(Problem(shell))
-    momentum = np.ascontiguousarray(force[:, 2:-2])
-    elements = patch.elements_around * patch.elements_along
-    per_force = median_seconds(lambda: shell.force(points, force), 200) / elements
-    per_solve = median_seconds(lambda: mass.velocity(momentum), 200) / elements
-    return [
-        ("force evaluation, per element", f"{1e9 * per_force:.0f} ns"),
-        ("mass solve, per element", f"{1e9 * per_solve:.0f} ns"),
-    ]
-
-
 def crumple_rows(folder: Path) -> list[tuple[str, str]]:
     """One crumple of exactly 4000 steps, then whole realisations."""
     problem, scheme = Problem(uncrumpled(FOIL, Mesh(5e-3)).stressed), Scheme()
     ramp, rule = Ramp(FOIL.shortening, 2000), StoppingRule(0.0, 2000)
-    seconds = median_seconds(lambda: relax(problem, scheme.start(problem), ramp, rule))
+    seconds = timed(lambda: relax(problem, scheme.start(problem), ramp, rule)).median
     rows = [("crumple, 0.17 m, 5 mm, 4000 steps", f"{seconds:.2f} s")]
     for height in (135, 170, 250):
         study = task_study(height)
@@ -151,7 +115,7 @@ def overhead_rows(folder: Path) -> list[tuple[str, str]]:
 
 
 def study_rows(configs: list[str]) -> list[tuple[str, str]]:
-    """Wall time of whole studies from nothing to the report."""
+    """Wall time of whole studies from nothing to the report, and what of their jobs is physics."""
     rows = []
     for config in configs:
         name = load_config(config).study.name
@@ -162,6 +126,8 @@ def study_rows(configs: list[str]) -> list[tuple[str, str]]:
         )
         wall = time.perf_counter() - start
         rows.append((f"study `{name}`, two cores", f"{wall:.0f} s"))
+        share = physics_share(ROOT / "results" / name)
+        rows.append((f"study `{name}`, physics of the time of its jobs", str(share)))
     return rows
 
 
@@ -169,14 +135,13 @@ def main(configs: list[str]) -> None:
     """Measure and write the table."""
     compile_kernels()
     with tempfile.TemporaryDirectory() as folder:
-        rows = kernel_rows() + crumple_rows(Path(folder)) + overhead_rows(Path(folder))
+        rows = crumple_rows(Path(folder)) + overhead_rows(Path(folder))
     rows += study_rows(configs)
-    lines = ["| | measured |", "|---|---|"]
-    lines += [f"| {what} | {value} |" for what, value in rows]
-    how = f"{machine()}. Medians of {REPEATS} runs; realisations and studies are single runs."
-    text = "\n".join(["# Measured", "", how, "", *lines, ""])
-    (ROOT / "benchmarks" / "results.md").write_text(text, encoding="utf-8")
-    print(text)
+    how = (
+        f"{machine()}. Medians of {REPEATS} runs; realisations and studies are single runs. Jobs "
+        "by themselves take the fingerprints of the code; in the worker these are taken once."
+    )
+    write_section("Jobs and studies", f"{how}\n\n{markdown_table(['', 'measured'], rows)}")
 
 
 if __name__ == "__main__":
