@@ -230,7 +230,7 @@ def test_every_figure_is_drawn_with_a_panel_for_each_family_and_quantity(study):
     assert len(figures.static(study).axes) == 2 * rows
     ensemble = figures.ensemble(study, "ensembles, 500 um")
     texts = {text.get_text() for ax in ensemble.axes for text in ax.texts}
-    assert {"250", "2000", "one point"} <= texts
+    assert {"500", "2000", "one point"} <= texts
     exponents = [text.get_text() for text in figures.run_time(study).axes[0].legend_.texts]
     assert exponents[0] == "500 µm: exponent -2.00 ± 0.00"
 
