@@ -711,3 +711,19 @@ def test_schema_accepts_the_study_files(file):
 def test_schema_refuses_what_the_model_refuses(content):
     assert schema_errors(content)
     problems_of(content)
+
+
+CONSTANTS_OF_FEP = {
+    "youngs_modulus_mpa": 650, "poisson_ratio": 0.4, "density_kg_m3": 2150, "yield_stress_mpa": 12,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "name", ["0E0", "1e3", "0x1F", "0o17", "1_000", "on", "12:30", "-.5", "null"]
+)
+def test_a_text_that_looks_like_a_number_is_written_as_a_text(name, tmp_path):
+    """Numbers of YAML 1.2, which reads it, and words of 1.1, which writes it."""
+    config = load_config(study(material={"name": name} | CONSTANTS_OF_FEP))
+    path = tmp_path / "study.yaml"
+    path.write_text(config.to_yaml(), encoding="utf-8")
+    assert load_config(path) == config

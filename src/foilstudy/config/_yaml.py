@@ -10,14 +10,14 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any, NoReturn
 
 import yaml
 
 from foilstudy.base.errors import ConfigError
 
-__all__ = ["read_yaml"]
+__all__ = ["read_yaml", "written"]
 
 NESTING_MAX = 16
 VALUES_MAX = 50_000
@@ -242,3 +242,24 @@ def _refuse_tag(node: yaml.Node) -> NoReturn:
 
 def _refuse(place: yaml.Node | yaml.Event, problem: str) -> NoReturn:
     raise ConfigError(f"line {place.start_mark.line + 1}: {problem}")
+
+
+# numbers of YAML 1.2 that PyYAML, which follows 1.1, would write without quotes as a text
+_NUMBER = re.compile(r"[-+]?(\.\d+|\d+(\.\d*)?)([eE][-+]?\d+)?|0o[0-7]+|0x[\dA-Fa-f]+")
+
+
+class _Writer(yaml.SafeDumper):
+    """Writes what is read back as it is."""
+
+
+def _text(writer: yaml.SafeDumper, text: str) -> yaml.ScalarNode:
+    style = "'" if _NUMBER.fullmatch(text) else None
+    return writer.represent_scalar("tag:yaml.org,2002:str", text, style=style)
+
+
+_Writer.add_representer(str, _text)
+
+
+def written(content: Mapping[str, Any]) -> str:
+    """YAML of plain data, in the order in which it comes."""
+    return yaml.dump(content, Dumper=_Writer, sort_keys=False, allow_unicode=True)

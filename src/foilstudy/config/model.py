@@ -381,10 +381,9 @@ class StudyConfig(Section):
 
     def to_yaml(self) -> str:
         """Full validated configuration as YAML, defaults included, for provenance."""
-        import yaml  # jobs that only read a task need no YAML
+        from ._yaml import written  # jobs that only read a task need no YAML
 
-        content = self.model_dump(mode="json", exclude_none=True)
-        return yaml.safe_dump(content, sort_keys=False, allow_unicode=True)
+        return written(self.model_dump(mode="json", exclude_none=True))
 
 
 def _duplicates(
