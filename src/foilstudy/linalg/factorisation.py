@@ -51,7 +51,7 @@ def factorise(
     ----------
     matrix : csr_matrix or SymmetricBlocks
         Real or complex symmetric (not Hermitian), both triangles stored; or blocks of a real one
-        that has to be positive definite, which take a quarter of the time.
+        that has to be positive definite, which take less time.
     residual_tolerance : float
         Largest accepted relative residual of the check, |A x - b| / (|A| |x|), scaled to a unit
         diagonal: unknowns may have units of their own, such as m and rad.

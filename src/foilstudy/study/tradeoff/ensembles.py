@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from foilstudy.config.accuracy import STANDARD
+from foilstudy.config.sections import Relaxation
 from foilstudy.linalg import SolveError
 from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.pipeline.crumple import crumple
@@ -52,10 +53,15 @@ def measure(point: Point) -> dict:
 
 def recipe(point: Point) -> Recipe:
     """What a study would take on this mesh: a ramp by R/t."""
-    sheet = foil(point.thickness_um, point.height_mm)
-    steps = round(STANDARD.ramp_slowness * sheet.diameter / 2 / sheet.thickness)
-    method = Method(RelaxationPath(ramp_steps=steps))
+    method = method_for(foil(point.thickness_um, point.height_mm))
     return Recipe(Mesh(point.size_mm * 1e-3), Imperfection(), method)
+
+
+def method_for(sheet: Foil) -> Method:
+    """That of the standard accuracy."""
+    relaxation = Relaxation(ramp_slowness=STANDARD.ramp_slowness)
+    steps = relaxation.resolved(sheet.diameter / 2 / sheet.thickness).ramp_steps
+    return Method(RelaxationPath(ramp_steps=steps))
 
 
 def _crumple(sheet: Foil, recipe: Recipe, seed: int) -> Crumpled:

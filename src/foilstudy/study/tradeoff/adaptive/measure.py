@@ -7,20 +7,19 @@ from typing import Any
 
 import numpy as np
 
-from foilstudy.config.accuracy import STANDARD
 from foilstudy.linalg import SolveError
 from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.pipeline.crumple import crumple, uncrumpled
 from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.pipeline.shape import Shape
-from foilstudy.solve.paths.relaxation import RelaxationPath
 from foilstudy.solve.problem import Problem
 from foilstudy.solve.relaxation.loop import Ramp, StoppingRule, relax
 from foilstudy.study.elements.plan import DEFAULT
 from foilstudy.study.elements.variants import VARIANTS
 from foilstudy.study.published import CrumpleCase, foil
 from foilstudy.study.tradeoff.adaptive import sensor, sizes
+from foilstudy.study.tradeoff.ensembles import method_for
 from foilstudy.study.tradeoff.pace import in_turns
 
 STAGES = (0.15, 0.25, 0.35, 0.5, 0.65, 0.8, 1.0)
@@ -73,9 +72,8 @@ def measure(case: CrumpleCase) -> dict:
 def _recipe(case: CrumpleCase) -> tuple[Foil, Mesh, Imperfection, Method]:
     """With the ramp that a study takes."""
     sheet = foil(case.thickness_um, case.height_mm)
-    steps = round(STANDARD.ramp_slowness * sheet.diameter / 2 / sheet.thickness)
     mesh = Mesh(case.size_mm * 1e-3, case.element)
-    return sheet, mesh, Imperfection(seed=case.seed), Method(RelaxationPath(steps))
+    return sheet, mesh, Imperfection(seed=case.seed), method_for(sheet)
 
 
 def _relative_errors(shape: Shape) -> np.ndarray:
