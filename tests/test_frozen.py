@@ -21,18 +21,9 @@ PARTS = ("crumple", "response", "refined", "cylinder")
 
 
 def python(*words):
-    """A job's process: one thread, and kernels from the cache.
-
-    A kernel that this process has just compiled may differ in its last bits from the same kernel
-    read from the cache, which is why a study compiles before it starts any job.
-    """
+    """A job's process: one thread."""
     threads = {f"{name}_NUM_THREADS": "1" for name in ("OMP", "MKL", "OPENBLAS", "NUMBA")}
     subprocess.run([sys.executable, *words], check=True, env=os.environ | threads)
-
-
-@pytest.fixture(scope="module")
-def compiled():
-    python("-c", "from foilstudy.study.sweep.warmup import compile_kernels; compile_kernels()")
 
 
 def run_cell(name, folder):
@@ -42,7 +33,7 @@ def run_cell(name, folder):
 
 
 @pytest.mark.parametrize("name", frozen.CELLS)
-def test_a_cell_is_the_same_to_the_last_bit(name, compiled, tmp_path):
+def test_a_cell_is_the_same_to_the_last_bit(name, tmp_path):
     kept = frozen.read(name)
     if kept["processor"] != frozen.processor():
         pytest.skip("a crumple is chaotic, and its last bits belong to the processor it ran on")

@@ -7,6 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+# What a kernel calls stands in it (`forceinline`): as a function of its own it is linked twice,
+# optimised otherwise, and the process that compiles it has other last bits than all later ones.
+
 
 class Tables(NamedTuple):
     """A strain sampling as arrays.
@@ -38,7 +41,7 @@ class Tables(NamedTuple):
     fold: float
 
 
-@njit(cache=True, error_model="numpy", fastmath=True)
+@njit(cache=True, error_model="numpy", fastmath=True, forceinline=True)
 def _gather(x, j, i, columns, nodes):
     for node in range(9):
         column = (i + node % 3) % columns
@@ -46,7 +49,7 @@ def _gather(x, j, i, columns, nodes):
             nodes[node, c] = x[c, j + node // 3, column]
 
 
-@njit(cache=True, error_model="numpy", fastmath=True)
+@njit(cache=True, error_model="numpy", fastmath=True, forceinline=True)
 def _vectors(nodes, weights, needs, a):
     for p in range(weights.shape[0]):
         for q in range(5):
@@ -59,7 +62,7 @@ def _vectors(nodes, weights, needs, a):
                     a[p, q, c] += w * nodes[node, c]
 
 
-@njit(cache=True, error_model="numpy", fastmath=True)
+@njit(cache=True, error_model="numpy", fastmath=True, forceinline=True)
 def _membrane_samples(a, component, position, out):
     for s in range(component.size):
         v = a[position[s]]
@@ -211,7 +214,7 @@ def force(x, n_around, law, bend, ref, tables, out):
     return energy
 
 
-@njit(cache=True, error_model="numpy", fastmath=True)
+@njit(cache=True, error_model="numpy", fastmath=True, forceinline=True)
 def _bending_hessian(v, c, bend, ref4, fold, stressed, grad, hess):
     """Gradients (3, 15) of the bending strains, and the stress part of the Hessian (15, 15)."""
     normal = np.cross(v[0], v[1])
