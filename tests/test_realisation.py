@@ -146,7 +146,7 @@ def test_an_absurd_imperfection_becomes_a_flagged_record(tmp_path):
     assert "unstable" in records.crumple_attributes["message"]
     assert "control_points" not in records.crumple
     assert records.response_attributes["status"] == "diverged"
-    assert set(records.response) == {"peak_memory"}
+    assert set(records.response) == {"peak_memory", "verdict"}
     assert_documented(tmp_path / "crumple.nc")
 
 
@@ -181,7 +181,7 @@ def test_a_crash_while_measuring_becomes_a_flagged_record(tmp_path, monkeypatch)
     assert records.crumple_attributes["status"] == "converged"
     assert records.response_attributes["status"] == "failed"
     assert records.response_attributes["message"] == "RuntimeError: no factor"
-    assert set(records.response) == {"peak_memory"}
+    assert set(records.response) == {"peak_memory", "verdict"}
 
 
 def test_a_record_appears_whole_or_not_at_all(tmp_path):

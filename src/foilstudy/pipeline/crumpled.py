@@ -14,9 +14,11 @@ from foilstudy.base.record import read_record
 from foilstudy.base.spec import dumped, loaded
 from foilstudy.measure.dynamics import DynamicsOptions
 from foilstudy.measure.stiffness import prestressed_stiffness
+from foilstudy.measure.verdicts import Verdict, verdicts
 from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.model.patch import Patch
 from foilstudy.model.shell.shell import Shell
+from foilstudy.pipeline.evidence import evidence_of
 from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.pipeline.shape import Shape
 from foilstudy.pipeline.static import (
@@ -155,6 +157,11 @@ class Crumpled(Shape):
             If the tangent with held rings is singular.
         """
         return prestressed_stiffness(self.stressed, self.points)
+
+    def verdicts(self) -> tuple[Verdict, ...]:
+        """What the numbers of the crumple say of it, see `foilstudy.measure.verdicts`."""
+        count = self.arrival.negative_eigenvalues if self.arrival else None
+        return verdicts(evidence_of(self, self.status, count))
 
     def vibration(self, options: DynamicsOptions | None = None) -> Vibration:
         """Dynamic stiffness, eigenfrequencies and mode shapes of the stress-free shape.

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from foilstudy.base.outcome import USABLE
 from foilstudy.plot import style
-from foilstudy.present.statistics.cells import good
+from foilstudy.present.statistics.cells import good, sound
 
 
 @style.styled
@@ -19,7 +18,7 @@ def draw(cube, definition: str):
         ``transfer``, ``driving`` or ``relative``.
     """
     magnitude = np.abs(cube["dynamic_stiffness"].sel(definition=definition))
-    magnitude = magnitude.where(cube["status"].isin(USABLE))
+    magnitude = magnitude.where(sound(cube))
     directions = list(map(str, cube["direction"].values))
     thicknesses = cube["thickness"].to_numpy()
     figure, axes = style.panel_grid(

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from foilstudy.base.outcome import USABLE
 from foilstudy.plot import style
+from foilstudy.present.statistics.cells import sound
 
 _PARTS = {"bending": ("0.35", ""), "membrane": ("0.65", ""), "stabilisation": ("#d95f02", "///")}
 
@@ -13,7 +13,7 @@ _PARTS = {"bending": ("0.35", ""), "membrane": ("0.65", ""), "stabilisation": ("
 @style.styled
 def draw(cube):
     """Draw one panel per thickness, one bar per overlength."""
-    usable = cube["status"].isin(USABLE)
+    usable = sound(cube)
     parts = {
         name: cube[f"{name}_energy"]
         .where(usable)

@@ -52,6 +52,7 @@ def banner(cube, trust: Trust) -> Banner | None:
     reasons = [
         *_unresolved(trust),
         *_folded(trust),
+        *_flawed(trust),
         *_inaccurate(trust),
         *_unstated(trust, refinements),
     ]
@@ -92,6 +93,15 @@ def _folded(trust: Trust):
             f"The sharpest folds turn {number_range(angles.lowest, angles.highest)}° from one "
             f"element to the next at {named(cells)}; a mesh that follows them turns "
             f"{FOLD_ANGLE_MAX_DEG:g}° at most."
+        )
+
+
+def _flawed(trust: Trust):
+    cells = (trust.flawed & ~trust.unresolved).any("direction")
+    if cells.any():
+        yield (
+            f"Elements lock or hourglass in most realisations at {named(cells)}: the verdicts, "
+            "under health, say which, and what to do instead."
         )
 
 

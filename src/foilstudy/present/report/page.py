@@ -34,6 +34,7 @@ from foilstudy.present.report import (
 )
 from foilstudy.present.report.alt import alt_text
 from foilstudy.present.report.health import assess
+from foilstudy.present.report.verdicts import found_verdicts
 from foilstudy.present.statistics.cells import realised
 from foilstudy.present.statistics.tables import TABLES
 from foilstudy.present.statistics.trust import assess_trust
@@ -179,6 +180,7 @@ def _content(files: StudyFiles, folder: Path) -> dict:
         "equilibrium": settling,
         "equilibrium_words": equilibrium.equilibrium_findings(settling),
         "health": health,
+        "verdicts": found_verdicts(cube),
         "health_words": findings.health_sentence(health),
         "figures": _figures(files, _seen(said)),
         "viewer": shapes,

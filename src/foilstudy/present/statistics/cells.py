@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from foilstudy.base.outcome import NOT_NEEDED, USABLE
+from foilstudy.measure.verdicts import FAULTS
 
 
 @dataclass(frozen=True)
@@ -58,6 +59,27 @@ def usable(values):
     return values.where(np.isfinite(values) & (values > 0))
 
 
+def sound(cube):
+    """Return which realisations left a shape and have no fault among their verdicts.
+
+    A cube of a release before 0.5 tells no verdict; there the status decides alone.
+
+    Returns
+    -------
+    xarray.DataArray of bool
+        With dimensions thickness, overlength, seed.
+    """
+    left_shape = cube["status"].isin(USABLE)
+    return left_shape & ~found_any(cube, FAULTS) if "verdict" in cube else left_shape
+
+
+def found_any(cube, names):
+    """Return where one of these verdicts was found, by the bits that the cube itself declares."""
+    what = cube["verdict"]
+    known = dict(zip(what.attrs["flag_meanings"].split(), what.attrs["flag_masks"], strict=True))
+    return (what & sum(int(known.get(name, 0)) for name in names)) != 0
+
+
 def measured(cube, name: str, **selection):
     """Return variable `name`, of either sign, where the realisation left a shape.
 
@@ -71,10 +93,10 @@ def measured(cube, name: str, **selection):
     Returns
     -------
     xarray.DataArray
-        NaN where the realisation diverged or failed, or the value is not finite.
+        NaN where the realisation is not `sound`, or the value is not finite.
     """
     values = cube[name]
-    return values.where(np.isfinite(values) & cube["status"].isin(USABLE)).sel(**selection)
+    return values.where(np.isfinite(values) & sound(cube)).sel(**selection)
 
 
 def good(cube, name: str, **selection):
@@ -90,7 +112,7 @@ def good(cube, name: str, **selection):
     Returns
     -------
     xarray.DataArray
-        NaN where the realisation diverged or failed, or the value is not finite and positive.
+        NaN where the realisation is not `sound`, or the value is not finite and positive.
     """
     return usable(measured(cube, name, **selection))
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foilstudy.base.outcome import USABLE
 from foilstudy.model.materials import Material
 from foilstudy.present.configuration import configuration, material
+from foilstudy.present.statistics.cells import sound
 
 BANDWIDTH_OCTAVES = 0.5
 """Width of the band over which a modal density is counted."""
@@ -115,7 +115,7 @@ def counted_modal_density(cube):
         diverged or failed.
     """
     dims = ("thickness", "overlength", "seed", "frequency")
-    count = cube["mode_count"].where(cube["status"].isin(USABLE)).transpose(*dims)
+    count = cube["mode_count"].where(sound(cube)).transpose(*dims)
     return count.copy(data=modal_density(cube["frequency"].to_numpy(), count.to_numpy()))
 
 

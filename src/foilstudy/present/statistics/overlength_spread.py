@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foilstudy.base.outcome import USABLE
+from foilstudy.present.statistics.cells import sound
 
 OCTAVES = 1.0
 """Width of the moving average over the frequencies."""
@@ -158,5 +158,5 @@ def relative_magnitude(cube, thickness: float, direction: str) -> np.ndarray:
     at = {"thickness": thickness}
     part = at | {"direction": direction, "definition": "relative"}
     magnitude = np.abs(cube["dynamic_stiffness"].sel(part))
-    magnitude = magnitude.where(cube["status"].sel(at).isin(USABLE))
+    magnitude = magnitude.where(sound(cube).sel(at))
     return magnitude.transpose("overlength", "seed", "frequency").to_numpy()

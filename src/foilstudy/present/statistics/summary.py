@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from foilstudy.base.confidence import MeanInterval
-from foilstudy.base.outcome import USABLE
 from foilstudy.present.comparison import comparable
 from foilstudy.present.configuration import configuration
-from foilstudy.present.statistics.cells import good, realised
+from foilstudy.present.statistics.cells import good, realised, sound
 from foilstudy.present.statistics.trust import assess_trust
 from foilstudy.study.sweep.rounds import answering_values
 
@@ -38,7 +37,7 @@ def stiffness_summary(cube):
     import pandas as pd
 
     status = cube["status"].transpose("thickness", "overlength", "seed")
-    usable = status.isin(USABLE).to_numpy()
+    usable = sound(cube).transpose(*status.dims).to_numpy()
     not_converged = (status == "not_converged").to_numpy()
     there, wish = realised(cube).to_numpy(), wished_half_width(cube)
     reference, trust = comparable(cube), assess_trust(cube)

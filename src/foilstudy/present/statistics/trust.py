@@ -7,10 +7,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from foilstudy.measure.verdicts import DOUBTS
 from foilstudy.model.mesh_size import SLENDERNESS_MAX
 from foilstudy.model.shell.folding import FOLD_ANGLE_MAX_DEG
 from foilstudy.present.comparison import studied_case
-from foilstudy.present.statistics.cells import good, measured, relative_mesh_error
+from foilstudy.present.statistics.cells import (
+    found_any,
+    good,
+    measured,
+    relative_mesh_error,
+    sound,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -37,10 +44,11 @@ class Trust:
         Stated error over the mesh limit, the largest of the realisations; NaN where none is.
     known : xarray.DataArray of bool (thickness, overlength, direction)
         Whether there is any stiffness.
-    unresolved, folded, unstated, inaccurate : xarray.DataArray of bool, as `known`
+    unresolved, folded, unstated, inaccurate, flawed : xarray.DataArray of bool, as `known`
         Why a known one is not trusted: its elements are wider than folds; its folds turn more than
         `FOLD_ANGLE_MAX_DEG` from one element to the next; a mesh error is not stated; that is
-        larger than `ERROR_MAX`.
+        larger than `ERROR_MAX`; most of its realisations have hourglassed or locked
+        (`foilstudy.measure.verdicts`).
     """
 
     slenderness: xr.DataArray
@@ -51,6 +59,7 @@ class Trust:
     folded: xr.DataArray
     unstated: xr.DataArray
     inaccurate: xr.DataArray
+    flawed: xr.DataArray
 
     @property
     def trusted(self):
@@ -60,7 +69,7 @@ class Trust:
     @property
     def doubted(self):
         """Known stiffnesses that are not trusted."""
-        return self.unresolved | self.folded | self.unstated | self.inaccurate
+        return self.unresolved | self.folded | self.unstated | self.inaccurate | self.flawed
 
 
 def assess_trust(cube) -> Trust:
@@ -79,7 +88,8 @@ def assess_trust(cube) -> Trust:
     fold_angle = _fold_angle(cube)
     folded = known & (fold_angle > FOLD_ANGLE_MAX_DEG)
     order = ("thickness", "overlength", "direction")
-    arrays = (largest, known, unresolved, folded, unstated, inaccurate)
+    flawed = known & (_doubted_share(cube) > 0.5)
+    arrays = (largest, known, unresolved, folded, unstated, inaccurate, flawed)
     return Trust(slenderness, fold_angle, *(array.transpose(*order) for array in arrays))
 
 
@@ -89,6 +99,13 @@ def _slenderness(cube):
         return cube["thickness"] * cube["overlength"] * np.nan
     size = cube["element_size"].max("seed").transpose("thickness", "overlength")
     return size / np.sqrt(case.diameter_mm / 2 * cube["thickness"] * 1e-3)
+
+
+def _doubted_share(cube):
+    """Of the realisations that count: those with a verdict that casts doubt on their mesh."""
+    if "verdict" not in cube:  # of a release before 0.5
+        return cube["thickness"] * cube["overlength"] * 0.0
+    return found_any(cube, DOUBTS).where(sound(cube)).mean("seed")
 
 
 def _fold_angle(cube):

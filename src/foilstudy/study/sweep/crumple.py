@@ -12,11 +12,9 @@ from foilstudy.config import CrumpleTask
 from foilstudy.config.foils import foil_of
 from foilstudy.config.scene import recipe_of
 from foilstudy.model.patch import RING_ROWS, knot_points
-from foilstudy.model.shell.folding import fold_angle
-from foilstudy.model.shell.intersection import self_crossing_share
-from foilstudy.model.shell.yielding import beyond_yield_share
 from foilstudy.pipeline.crumple import crumple
 from foilstudy.pipeline.crumpled import Crumpled, described
+from foilstudy.pipeline.evidence import sensors
 from foilstudy.solve.relaxation import History
 from foilstudy.study.sweep.origins import crumple_origin
 from foilstudy.study.sweep.outcome import Outcome, Values, outcome_of
@@ -115,7 +113,5 @@ def _numbers(crumpled: Crumpled) -> dict[str, float]:
         "radial_displacement_min": radial.min(),
         "radial_displacement_max": radial.max(),
         "radial_displacement_rms": np.sqrt(np.mean(radial**2)),
-        "fold_angle": fold_angle(surface),
-        "beyond_yield_share": beyond_yield_share(crumpled.stressed, points),
-        "self_crossing_share": self_crossing_share(surface),
+        **sensors(crumpled),
     }

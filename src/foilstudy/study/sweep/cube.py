@@ -22,6 +22,7 @@ from foilstudy.config.scene import dynamics_of
 from foilstudy.measure.dynamics import DEFINITIONS
 from foilstudy.measure.stiffness import DOF_NAMES
 from foilstudy.measure.stiffness.directional import DIRECTIONS
+from foilstudy.measure.verdicts import VERDICTS
 from foilstudy.study.sweep.origins import (
     cell_folder,
     crumple_origin,
@@ -115,6 +116,7 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
     for name, values in bounds.items():
         what = QUANTITIES[name]
         cube[name] = (what.dims, values, {"units": what.units, "long_name": what.words})
+    cube["verdict"] = _flagged(cube["verdict"])
     cube["status"] = (_CELL, status, {"units": "1", "long_name": "outcome of the realisation"})
     cube["message"] = (_CELL, message, {"units": "1", "long_name": "reason of the status"})
     if refined:
@@ -157,6 +159,14 @@ def _coordinates(
     }
 
 
+def _flagged(verdict: xr.DataArray) -> xr.DataArray:
+    """As whole numbers, which say by the CF conventions what their bits mean."""
+    masks = np.array([1 << bit for bit in range(len(VERDICTS))], dtype=np.int32)
+    meanings = " ".join(each.name for each in VERDICTS)
+    attributes = verdict.attrs | {"flag_masks": masks, "flag_meanings": meanings}
+    return verdict.fillna(0).astype(np.int32).assign_attrs(attributes)
+
+
 @dataclass(frozen=True)
 class _Cell:
     values: dict[str, np.ndarray]
@@ -184,7 +194,8 @@ def _read_cell(study: StudyConfig, cell: Cell, results: Path) -> _Cell:
             if relaxed_again != "converged":
                 message = f"{message}; relaxed again: {refined['message']}"
     return _Cell(
-        values if status in USABLE else {},  # whatever the crumple holds, it has failed
+        # whatever the crumple holds, it has failed
+        values if status in USABLE else {"verdict": responded["verdict"]},
         status,
         message,
         {record["git_commit"] for record in records},

@@ -107,6 +107,11 @@ QUANTITIES: dict[str, Declared] = {
     ),
     "beyond_yield_share": Declared("1", "share of the surface beyond the yield stress"),
     "self_crossing_share": Declared("1", "share of the surface crossed by another part"),
+    "broad_wave_share": Declared(
+        "1", "share of the radial displacement that bulges or sways the cylinder as a whole"
+    ),
+    "alternation": Declared("1", "opposition of the twists of neighbouring elements"),
+    "verdict": Declared("1", "what the numbers of the realisation say of it, a bit each"),
     "mode_count": Declared(
         "1", "eigenfrequencies, rings clamped, below a frequency", ("frequency",)
     ),

@@ -16,6 +16,7 @@ from foilstudy.config.scene import dynamics_of
 from foilstudy.linalg import SolveError
 from foilstudy.measure.dynamics import DynamicsOptions, Structure
 from foilstudy.measure.stiffness import fixed_stiffness, free_stiffness
+from foilstudy.measure.verdicts import Evidence, flags, verdicts
 from foilstudy.model.patch import Patch
 from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.structures import stress_free_structure
@@ -49,7 +50,12 @@ def respond_job(task: ResponseTask, crumple_path: Path, path: Path) -> None:
     with measured() as cost:
         if outcome.status in USABLE:
             outcome = outcome_of(work)
-    values = outcome.values | {"peak_memory": cost.peak_memory_mb}
+    known = {**recorded, **outcome.values} if outcome.status in USABLE else {}
+    found = verdicts(Evidence.of(outcome.status, known))
+    values = outcome.values | {
+        "verdict": float(flags(found)),
+        "peak_memory": cost.peak_memory_mb,
+    }
     described = {
         "status": outcome.status,
         "message": outcome.message,

@@ -25,6 +25,7 @@ from foilstudy.base.outcome import USABLE
 from foilstudy.base.record import read_attributes, read_record
 from foilstudy.config import Cell, StudyConfig
 from foilstudy.measure.stiffness.directional import DIRECTIONS
+from foilstudy.measure.verdicts import is_fault
 from foilstudy.study.sweep.origins import cell_folder, refuse_departure, response_origin
 
 __all__ = [
@@ -255,7 +256,7 @@ def recorded_values(study: StudyConfig, results: Path, cell: Cell) -> Values:
 
 def stiffnesses_of(values: Values, attributes: Mapping[str, Any]) -> Values:
     """Those of the content of a ``response.nc``."""
-    if attributes["status"] not in USABLE:
+    if attributes["status"] not in USABLE or is_fault(values["verdict"]):
         return {}
     return {name: values[name] for name in STIFFNESSES if name in values}
 

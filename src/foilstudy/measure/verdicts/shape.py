@@ -1,0 +1,74 @@
+"""What a shape tells of how it came about: folded as a whole, or alternating with the mesh."""
+
+from __future__ import annotations
+
+import numpy as np
+
+BROAD_WAVES = 1
+"""Waves around up to which a displacement moves the cylinder as a whole: bulge and sway."""
+
+_ROUNDING = 1e-9
+"""Displacement of a perfect cylinder, over its radius."""
+
+SMALLEST_ALTERNATION = 0.02
+"""Twist of an element, relative to its size, below which its direction says nothing."""
+
+
+def broad_wave_share(surface: np.ndarray) -> float:
+    """Share of the radial displacement that bulges or sways the cylinder as a whole.
+
+    A network of ridges has many waves around, wherever it is cut. A cylinder that has folded
+    globally goes in and out alike all around (concertina, pleat) or to one side (kink).
+
+    Parameters
+    ----------
+    surface : ndarray, shape (3, rows, columns)
+        Points at the knots, periodic in the columns, about the axis z, m. The rings, its first and
+        last row, have the radius of the cylinder.
+
+    Returns
+    -------
+    float
+        Mean square of the waves 0 and 1 around over that of all; NaN of a perfect cylinder.
+    """
+    radius = np.hypot(surface[0], surface[1])
+    ring = 0.5 * (radius[0].mean() + radius[-1].mean())
+    power = np.abs(np.fft.rfft(radius - ring, axis=1)) ** 2
+    last = None if radius.shape[1] % 2 else -1  # the shortest wave of an even number stands alone
+    power[:, 1:last] *= 2
+    total = power.sum()
+    if not total > (_ROUNDING * ring * power.size) ** 2:
+        return np.nan
+    return float(power[:, : BROAD_WAVES + 1].sum() / total)
+
+
+def alternation(displacement: np.ndarray) -> float:
+    """How much the twist of the elements goes up and down from one element to the next.
+
+    The twist of an element is the mixed second difference of its corners. In a resolved shape that
+    of neighbours is alike; where a sheet hourglasses, it has the other sign, along and around.
+
+    Parameters
+    ----------
+    displacement : ndarray, shape (3, rows, columns)
+        Of the control points, in lengths of an element; periodic in the columns.
+
+    Returns
+    -------
+    float
+        From -1 (neighbours alike) to 1 (the opposite of each other), the smaller of the two
+        directions; NaN where elements are not twisted.
+    """
+    closed = np.concatenate([displacement, displacement[:, :, :2]], axis=2)
+    rising = np.diff(closed, axis=2)
+    twist = np.diff(rising, axis=1)
+    own = twist[:, :, :-1]
+    if not np.sum(own**2) > SMALLEST_ALTERNATION**2 * own[0].size:
+        return np.nan
+    around = _correlation(own, twist[:, :, 1:])
+    along = _correlation(own[:, 1:], own[:, :-1])
+    return float(-max(around, along))
+
+
+def _correlation(first: np.ndarray, second: np.ndarray) -> float:
+    return np.sum(first * second) / np.sqrt(np.sum(first**2) * np.sum(second**2))

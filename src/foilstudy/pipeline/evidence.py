@@ -1,0 +1,57 @@
+"""The numbers of a crumple on which verdicts rest."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from foilstudy.linalg import SolveError
+from foilstudy.measure.stiffness import prestressed_stiffness
+from foilstudy.measure.stiffness.directional import DIRECTIONS
+from foilstudy.measure.verdicts import Evidence
+from foilstudy.measure.verdicts.shape import alternation, broad_wave_share
+from foilstudy.model.patch import knot_points
+from foilstudy.model.shell.folding import fold_angle
+from foilstudy.model.shell.intersection import self_crossing_share
+from foilstudy.model.shell.yielding import beyond_yield_share
+from foilstudy.pipeline.shape import Shape
+from foilstudy.pipeline.static import stress_free_stiffness
+
+
+def sensors(shape: Shape) -> dict[str, float]:
+    """What is seen in the shape itself, by the names of a study's quantities."""
+    surface, patch = knot_points(shape.points), shape.patch
+    size = max(patch.size_around, patch.size_along)
+    return {
+        "fold_angle": fold_angle(surface),
+        "beyond_yield_share": beyond_yield_share(shape.stressed, shape.points),
+        "self_crossing_share": self_crossing_share(surface),
+        "broad_wave_share": broad_wave_share(surface),
+        "alternation": alternation((shape.points - shape.reference) / size),
+    }
+
+
+def evidence_of(shape: Shape, status: str, negative_eigenvalues: int | None) -> Evidence:
+    """Of a shape in memory, with its stiffness on the mesh that it has."""
+    if not np.isfinite(shape.points).all():
+        return Evidence("diverged")
+    energies = shape.energies()
+    values = sensors(shape) | {
+        "membrane_energy": energies.membrane,
+        "bending_energy": energies.bending,
+        "negative_eigenvalues": np.nan if negative_eigenvalues is None else negative_eigenvalues,
+        "static_stiffness": _stiffness(lambda: stress_free_stiffness(shape)),
+        "prestressed_stiffness": _stiffness(
+            lambda: prestressed_stiffness(shape.stressed, shape.points)
+        ),
+    }
+    return Evidence.of(status, values)
+
+
+def _stiffness(measure: Callable[[], np.ndarray]) -> np.ndarray:
+    """By direction; NaN where it is not defined."""
+    try:
+        return measure()
+    except SolveError:
+        return np.full(len(DIRECTIONS), np.nan)
