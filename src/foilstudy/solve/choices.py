@@ -8,7 +8,19 @@ MASSES = Registry(
         "spectral": Choice(
             "solve.relaxation.mass.spectral:SpectralMassScaling",
             "bounds the stiffness of the sheet at every wavelength",
-        )
+        ),
+        "courant": Choice(
+            "solve.relaxation.mass.courant:CourantMass",
+            "no scaling, physical mass and the Courant step",
+        ),
+        "nodal": Choice(
+            "solve.relaxation.mass.nodal:NodalMassScaling",
+            "each control point raised to what its own stability takes",
+        ),
+        "selective": Choice(
+            "solve.relaxation.mass.selective:SelectiveMassScaling",
+            "off-diagonal terms that spare translations, solved iteratively",
+        ),
     },
 )
 DAMPINGS = Registry(
