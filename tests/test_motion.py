@@ -9,6 +9,11 @@ from foilstudy.linalg import SolveError
 from foilstudy.model.patch import RING_ROWS
 from foilstudy.solve.problem import Problem
 from foilstudy.solve.relaxation import Ramp, Scheme, StoppingRule, relax
+from foilstudy.solve.relaxation.damping.adaptive_viscous_plain import PlainAdaptiveViscousDamping
+from foilstudy.solve.relaxation.damping.fixed_viscous import FixedViscousDamping
+from foilstudy.solve.relaxation.damping.kinetic import KineticDamping
+from foilstudy.solve.relaxation.damping.kinetic_reset import KineticResetDamping
+from foilstudy.solve.relaxation.damping.none import NoDamping
 from foilstudy.solve.relaxation.mass.courant import CourantMass
 from foilstudy.solve.relaxation.mass.nodal import NodalMassScaling
 from foilstudy.solve.relaxation.mass.physical import PhysicalSheet
@@ -145,3 +150,103 @@ def test_a_momentum_that_is_not_finite_is_no_solution(problem):
 def test_a_step_that_is_none_is_refused(kind):
     with pytest.raises(Refusal, match="step factor of .* is 0; give a finite number above 0"):
         kind(step_factor=0.0)
+
+
+# --- dampings ------------------------------------------------------------------------------------
+
+STEP = 0.8
+
+
+class Watched(Problem):
+    """A problem that notes the amplitude of one mode whenever it is asked for the force."""
+
+    def __init__(self, sheet, weights):
+        super().__init__(sheet)
+        self._weights, self.amplitudes = weights, []
+
+    def force(self, points, out):
+        moved = points - self.reference
+        self.amplitudes.append(self._weights @ vector(moved[:, RING_ROWS:-RING_ROWS]))
+        return super().force(points, out)
+
+
+@pytest.fixture(scope="module")
+def mode():
+    """The lowest mode of a cylinder with its lumped mass: frequency per step, shape, weights."""
+    problem = Problem(cylinder(SIZE))
+    mass = CourantMass(STEP).start(problem)
+    diagonal = np.repeat((mass.masses / mass.time_step**2).ravel(), 3)
+    root = np.sqrt(diagonal)
+    stiffness = PhysicalSheet(problem).stiffness.toarray()
+    values, vectors = np.linalg.eigh(stiffness / np.outer(root, root))
+    return np.sqrt(values[0]), vectors[:, 0] / root, vectors[:, 0] * root
+
+
+AMPLITUDE = 1e-9
+"""Of the mode; so small that the sheet is linear. Mass-normalised shapes are of order 1e-2 here."""
+
+
+def let_go(mode, damping, steps):
+    """Amplitudes of the mode along a relaxation from it, over the first one."""
+    omega, shape, weights = mode
+    problem = Watched(cylinder(SIZE), weights)
+    _, rows, columns = free_shape(problem)
+    start = problem.reference.copy()
+    moved = AMPLITUDE * shape / np.abs(shape).max()
+    start[:, RING_ROWS:-RING_ROWS] += np.moveaxis(moved.reshape(rows, columns, 3), -1, 0)
+    motion = Scheme(CourantMass(STEP), damping, damping).start(problem)
+    relax(problem, motion, Ramp(0.0, 0), StoppingRule(0.0, steps), start)
+    return np.array(problem.amplitudes) / problem.amplitudes[0]
+
+
+def test_a_mode_is_at_rest_a_quarter_period_after_it_was_let_go(mode):
+    omega = mode[0]
+    quarter = 0.5 * np.pi / omega
+    assert omega < 0.1
+    amplitudes = let_go(mode, KineticDamping(), round(4 * quarter))
+    after = int(quarter) + 3
+    assert amplitudes[after - 6] > 2 * omega  # until then it moved
+    assert np.abs(amplitudes[after:]).max() < 0.1 * omega**3
+    # and it stays: a reset half a step or more behind the peak leaves what moves on
+    reset = let_go(mode, KineticResetDamping(), round(4 * quarter))
+    left = np.abs(reset[after:]).max()
+    assert 0.4 * omega < left < 1.6 * omega
+
+
+@pytest.mark.parametrize("peak", [-0.45, -0.1, 0.0, 0.3, 0.499])
+def test_the_peak_of_a_parabola_is_found(peak):
+    damper = KineticDamping().start()
+    halts = [damper.halt(5.0 - (t - peak) ** 2) for t in (-1, 0, 1)]
+    assert halts[:2] == [None, None]
+    # the energies stand at the middle of steps, the shape at the end of the second step: 1/2
+    assert halts[2].back == pytest.approx(0.5 - peak, abs=1e-14)
+    assert halts[2].push == 0.5
+    assert damper.halt(1e-9) is None  # it begins anew
+
+
+@pytest.mark.parametrize("coefficient", [0.0, 0.003, 0.01])
+def test_fixed_viscous_damping_takes_from_a_mode_what_theory_says(mode, coefficient):
+    omega, steps = mode[0], 400
+    damping = FixedViscousDamping(coefficient) if coefficient else NoDamping()
+    amplitudes = let_go(mode, damping, steps)
+    # the recurrence x'' + c x' + omega^2 x = 0 by central differences
+    decay = np.sqrt((1 - coefficient / 2) / (1 + coefficient / 2))
+    turn = np.arccos((1 - 0.5 * omega**2) / np.sqrt(1 - coefficient**2 / 4))
+    second = 1 - omega**2 / (1 + coefficient / 2)
+    n = np.arange(steps + 1)
+    sine = (second / decay - np.cos(turn)) / np.sin(turn)
+    expected = decay**n * (np.cos(turn * n) + sine * np.sin(turn * n))
+    np.testing.assert_allclose(amplitudes, expected, atol=1e-5)
+    assert decay == pytest.approx(np.exp(-0.5 * coefficient), rel=1e-6)
+
+
+def test_the_plain_coefficient_forgets():
+    damper = PlainAdaptiveViscousDamping().start()
+    damper.coefficient(100.0, 1.0)
+    assert damper.coefficient(0.09 * 2.0, 2.0) == pytest.approx(2 * 0.3, rel=1e-14)
+
+
+@pytest.mark.parametrize("coefficient", [-0.1, 2.0])
+def test_a_coefficient_that_would_drive_or_reverse_the_motion_is_refused(coefficient):
+    with pytest.raises(Refusal, match="coefficient of fixed viscous damping"):
+        FixedViscousDamping(coefficient)

@@ -29,7 +29,24 @@ DAMPINGS = Registry(
         "adaptive_viscous": Choice(
             "solve.relaxation.damping.adaptive_viscous:AdaptiveViscousDamping",
             "in proportion to the frequency of the current motion, averaged over steps",
-        )
+        ),
+        "adaptive_viscous_plain": Choice(
+            "solve.relaxation.damping.adaptive_viscous_plain:PlainAdaptiveViscousDamping",
+            "the same without the average",
+        ),
+        "fixed_viscous": Choice(
+            "solve.relaxation.damping.fixed_viscous:FixedViscousDamping",
+            "one coefficient",
+        ),
+        "kinetic": Choice(
+            "solve.relaxation.damping.kinetic:KineticDamping",
+            "motion stopped where the kinetic energy peaks",
+        ),
+        "kinetic_reset": Choice(
+            "solve.relaxation.damping.kinetic_reset:KineticResetDamping",
+            "velocities cleared once the kinetic energy has fallen",
+        ),
+        "none": Choice("solve.relaxation.damping.none:NoDamping", "no damping"),
     },
 )
 SEARCHES = Registry(

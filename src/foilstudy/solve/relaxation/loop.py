@@ -10,6 +10,7 @@ from numba import njit
 from foilstudy.linalg import SolveError
 from foilstudy.model.patch import RING_ROWS
 from foilstudy.solve.problem import Problem
+from foilstudy.solve.relaxation.damping import Halt
 from foilstudy.solve.relaxation.scheme import Motion
 from foilstudy.solve.residual import relative_residual
 
@@ -185,7 +186,7 @@ def relax(
     velocity = np.zeros_like(momentum)
     work_before = momentum_norm = 0.0
     recorder = _Recorder(ramp, problem)
-    status, step, failure = "not_converged", 0, None
+    status, step, failure, halt = "not_converged", 0, None, None
     last_step = ramp.steps + rule.relaxation_steps_max
     while True:
         energies = problem.force(points, force)
@@ -204,21 +205,35 @@ def relax(
                 status = "diverged"
             break
         damper = motion.ramp_damper if step < ramp.steps else motion.relaxation_damper
+        if halt is not None:  # it has just come to rest
+            momentum[:] = (1.0 - halt.push) * force[:, free[0] : free[1]]
         _advance(momentum, force, *free, damper.coefficient(work_rate, momentum_norm))
         try:
             velocity = motion.mass.velocity(momentum)
+            norm = _product(velocity, momentum, 0)
+            halt = damper.halt(norm)
+            if halt is not None:
+                velocity, norm = _return(motion, momentum, force, halt), 0.0
         except SolveError as error:
             recorder.record(step, force, energies, 0.5 * momentum_norm)
             status, failure = "diverged", str(error)
             break
         work_before = _product(velocity, force, RING_ROWS)
-        momentum_norm = _product(velocity, momentum, 0)
+        momentum_norm = norm
         step += 1
         lowering = ramp.shortening_at(step) - ramp.shortening_at(step - 1)
         _move(points, velocity, share, lowering, *free)
         if problem.has_memory:
             problem.commit(points)
     return recorder.result(status, step, points, rule, failure)
+
+
+def _return(motion: Motion, momentum: np.ndarray, force: np.ndarray, halt: Halt) -> np.ndarray:
+    """Clear the momentum; the motion of this step, back to where it comes to rest."""
+    momentum += force[:, RING_ROWS:-RING_ROWS]  # undamped: that of the step before
+    back = -halt.back * motion.mass.velocity(momentum)
+    momentum[:] = 0.0
+    return back
 
 
 @dataclass(frozen=True)
