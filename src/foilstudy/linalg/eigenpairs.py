@@ -24,6 +24,7 @@ _TOLERANCE = 1e-6
 """Residual of a mode relative to its eigenvalue of the shifted inverse."""
 MODES_MAX = 3000
 """Sought at most: that many take about ten minutes at ten thousand unknowns."""
+_LARGEST_TOLERANCE = 1e-3
 _NUDGES = 1.0, 1 + 1e-6, 1 - 1e-6
 """Factors on a shift; at an eigenvalue nothing can be factored."""
 
@@ -154,6 +155,37 @@ def lowest_modes(
         raise SolveError(f"the first {count} modes did not converge: {error}") from error
     order = np.argsort(values)
     return Modes(values[order], shapes[:, order])
+
+
+def largest_eigenvalue(stiffness: sparse.csr_matrix, mass: sparse.csr_matrix) -> float:
+    """The largest lambda of K x = lambda M x, to a thousandth.
+
+    Parameters
+    ----------
+    stiffness, mass : csr_matrix
+        Symmetric, the mass positive definite.
+
+    Raises
+    ------
+    SolveError
+        If the mass cannot be factored or the eigenvalue does not converge.
+    """
+    for matrix, what in ((stiffness, "the stiffness"), (mass, "the mass")):
+        refuse_not_finite(matrix.data, what)
+    size = stiffness.shape[0]
+    try:
+        values = eigsh(
+            stiffness,
+            1,
+            mass,
+            Minv=LinearOperator((size, size), matvec=factorise(mass).solve, dtype=float),
+            tol=_LARGEST_TOLERANCE,  # short waves lie close together: a tighter one takes long
+            v0=np.cos(np.arange(size, dtype=float)),
+            return_eigenvectors=False,
+        )
+    except ArpackError as error:
+        raise SolveError(f"the largest eigenvalue did not converge: {error}") from error
+    return float(values[0])
 
 
 class _LanczosBasis:

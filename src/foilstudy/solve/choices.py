@@ -8,7 +8,19 @@ MASSES = Registry(
         "spectral": Choice(
             "solve.relaxation.mass.spectral:SpectralMassScaling",
             "bounds the stiffness of the sheet at every wavelength",
-        )
+        ),
+        "courant": Choice(
+            "solve.relaxation.mass.courant:CourantMass",
+            "no scaling, physical mass and the Courant step",
+        ),
+        "nodal": Choice(
+            "solve.relaxation.mass.nodal:NodalMassScaling",
+            "each control point raised to what its own stability takes",
+        ),
+        "selective": Choice(
+            "solve.relaxation.mass.selective:SelectiveMassScaling",
+            "off-diagonal terms that spare translations, solved iteratively",
+        ),
     },
 )
 DAMPINGS = Registry(
@@ -17,7 +29,24 @@ DAMPINGS = Registry(
         "adaptive_viscous": Choice(
             "solve.relaxation.damping.adaptive_viscous:AdaptiveViscousDamping",
             "in proportion to the frequency of the current motion, averaged over steps",
-        )
+        ),
+        "adaptive_viscous_plain": Choice(
+            "solve.relaxation.damping.adaptive_viscous_plain:PlainAdaptiveViscousDamping",
+            "the same without the average",
+        ),
+        "fixed_viscous": Choice(
+            "solve.relaxation.damping.fixed_viscous:FixedViscousDamping",
+            "one coefficient",
+        ),
+        "kinetic": Choice(
+            "solve.relaxation.damping.kinetic:KineticDamping",
+            "motion stopped where the kinetic energy peaks",
+        ),
+        "kinetic_reset": Choice(
+            "solve.relaxation.damping.kinetic_reset:KineticResetDamping",
+            "velocities cleared once the kinetic energy has fallen",
+        ),
+        "none": Choice("solve.relaxation.damping.none:NoDamping", "no damping"),
     },
 )
 SEARCHES = Registry(

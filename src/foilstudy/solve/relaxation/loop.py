@@ -7,8 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numba import njit
 
+from foilstudy.linalg import SolveError
 from foilstudy.model.patch import RING_ROWS
 from foilstudy.solve.problem import Problem
+from foilstudy.solve.relaxation.damping import Halt
 from foilstudy.solve.relaxation.scheme import Motion
 from foilstudy.solve.residual import relative_residual
 
@@ -171,7 +173,8 @@ def relax(
     Returns
     -------
     RelaxationResult
-        Never raises for a sheet that fails to converge: the status says so.
+        Never raises for a sheet that fails to converge: the status says so. Where the mass cannot
+        be solved for it is ``diverged``.
     """
     points = (problem.reference if start is None else start).copy()
     rows = points.shape[1]
@@ -183,7 +186,7 @@ def relax(
     velocity = np.zeros_like(momentum)
     work_before = momentum_norm = 0.0
     recorder = _Recorder(ramp, problem)
-    status, step = "not_converged", 0
+    status, step, failure, halt = "not_converged", 0, None, None
     last_step = ramp.steps + rule.relaxation_steps_max
     while True:
         energies = problem.force(points, force)
@@ -202,16 +205,35 @@ def relax(
                 status = "diverged"
             break
         damper = motion.ramp_damper if step < ramp.steps else motion.relaxation_damper
+        if halt is not None:  # it has just come to rest
+            momentum[:] = (1.0 - halt.push) * force[:, free[0] : free[1]]
         _advance(momentum, force, *free, damper.coefficient(work_rate, momentum_norm))
-        velocity = motion.mass.velocity(momentum)
+        try:
+            velocity = motion.mass.velocity(momentum)
+            norm = _product(velocity, momentum, 0)
+            halt = damper.halt(norm)
+            if halt is not None:
+                velocity, norm = _return(motion, momentum, force, halt), 0.0
+        except SolveError as error:
+            recorder.record(step, force, energies, 0.5 * momentum_norm)
+            status, failure = "diverged", str(error)
+            break
         work_before = _product(velocity, force, RING_ROWS)
-        momentum_norm = _product(velocity, momentum, 0)
+        momentum_norm = norm
         step += 1
         lowering = ramp.shortening_at(step) - ramp.shortening_at(step - 1)
         _move(points, velocity, share, lowering, *free)
         if problem.has_memory:
             problem.commit(points)
-    return recorder.result(status, step, points, rule)
+    return recorder.result(status, step, points, rule, failure)
+
+
+def _return(motion: Motion, momentum: np.ndarray, force: np.ndarray, halt: Halt) -> np.ndarray:
+    """Clear the momentum; the motion of this step, back to where it comes to rest."""
+    momentum += force[:, RING_ROWS:-RING_ROWS]  # undamped: that of the step before
+    back = -halt.back * motion.mass.velocity(momentum)
+    momentum[:] = 0.0
+    return back
 
 
 @dataclass(frozen=True)
@@ -237,6 +259,8 @@ class _Recorder:
         self._last: _Entry | None = None
 
     def record(self, step, force, energies, kinetic) -> _Entry:
+        if self._rows and self._rows[-1][0] == step:
+            return self._last
         free = force[:, RING_ROWS:-RING_ROWS]
         rings = np.sqrt(np.sum(force[:, :RING_ROWS] ** 2) + np.sum(force[:, -RING_ROWS:] ** 2))
         residual = relative_residual(np.sqrt(np.sum(free**2)), rings)
@@ -256,7 +280,7 @@ class _Recorder:
             return "the forces were not finite"
         return f"the kinetic energy was {ratio:.1g} of the strain energy"
 
-    def result(self, status, step, points, rule) -> RelaxationResult:
+    def result(self, status, step, points, rule, failure=None) -> RelaxationResult:
         last = self._last
         steps, heights, reactions, *energies, kinetic, residuals = np.array(self._rows).T
         messages = {
@@ -270,6 +294,7 @@ class _Recorder:
                 "imperfection or more ramp steps"
             ),
         }
+        message = f"{failure} (step {step})" if failure else messages[status]
         height = points[2, -RING_ROWS:].mean() + self._ramp.shortening_at(step)
         history = History(
             steps.astype(np.int64),
@@ -281,7 +306,7 @@ class _Recorder:
         )
         return RelaxationResult(
             status,
-            messages[status],
+            message,
             points,
             last.residual,
             last.kinetic_energy_ratio,

@@ -9,7 +9,7 @@ from pathlib import Path
 from foilstudy.base.outcome import USABLE
 from foilstudy.config import load_config
 from foilstudy.model.shell.elements import ELEMENTS
-from foilstudy.solve.choices import DAMPINGS, MASSES, PATHS, SEARCHES
+from foilstudy.solve.choices import MASSES, PATHS, SEARCHES
 
 
 def compile_kernels() -> bool:
@@ -52,9 +52,12 @@ def compile_kernels() -> bool:
 
 
 def _variants() -> Iterator[dict]:
-    """Sections that choose every element, and every strategy that is not the default."""
+    """Sections that choose every element, and every strategy with kernels, but the default ones.
+
+    A damping has none.
+    """
     yield from ({"mesh": {"element": name}} for name in ELEMENTS)
-    registries = {"path": PATHS, "mass": MASSES, "damping": DAMPINGS, "search": SEARCHES}
+    registries = {"path": PATHS, "mass": MASSES, "search": SEARCHES}
     for key, registry in registries.items():
         yield from ({"method": {key: name}} for name in list(registry)[1:])
 

@@ -6,9 +6,27 @@ returns, one for each run.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Protocol
 
-__all__ = ["Damper", "Damping"]
+__all__ = ["Damper", "Damping", "Halt"]
+
+
+@dataclass(frozen=True)
+class Halt:
+    """That an undamped motion stops, and where.
+
+    Attributes
+    ----------
+    back : float
+        Steps from the shape that has been reached back along the velocity that led there.
+    push : float
+        Share of the force in the first step from rest: 1/2 brings the velocity from a shape at rest
+        to the middle of the step, 1 is what a loop does that only has its velocities cleared.
+    """
+
+    back: float = 0.0
+    push: float = 0.5
 
 
 class Damper(Protocol):
@@ -26,9 +44,19 @@ class Damper(Protocol):
         """
         ...
 
+    def halt(self, momentum_norm: float) -> Halt | None:
+        """Whether the motion stops instead of making a step; only of one without viscous damping.
+
+        Parameters
+        ----------
+        momentum_norm : float
+            v . M v with the velocity of the coming step, J.
+        """
+        return None
+
 
 class Damping(Protocol):
-    """Chooses the viscous coefficient of every pseudo-time step.
+    """Chooses how a motion loses its energy.
 
     Its class has methods ``for_ramp()`` and ``for_relaxation()``, which make the one that a study
     takes while the ring moves, and after.

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from foilstudy.solve.relaxation.damping import Damper
+
 _RAMP, _RELAXATION = 0.5, 0.06
 """Share of the critical damping of the current motion, while the ring moves and after. The Rayleigh
 quotient overestimates the slowest mode, so that less damping settles sooner (docs/method.md)."""
@@ -49,7 +51,7 @@ class AdaptiveViscousDamping:
         return _Averages(self)
 
 
-class _Averages:
+class _Averages(Damper):
     def __init__(self, damping: AdaptiveViscousDamping):
         self._scale = damping.scale
         self._weight = 1.0 / damping.memory
