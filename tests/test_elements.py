@@ -15,12 +15,15 @@ from wild_sheets import (
     wild_sheet,
 )
 
+from foilstudy.measure.stiffness import transfer_stiffness
 from foilstudy.model.materials import Material
-from foilstudy.model.patch import Patch, fitted_control_points
+from foilstudy.model.patch import Patch, fitted_control_points, refine
 from foilstudy.model.shell.elements import corner_kernel, sampling
 from foilstudy.model.shell.elements.corner import Corner
+from foilstudy.model.shell.elements.full import Full
 from foilstudy.model.shell.elements.one_point import OnePoint
 from foilstudy.model.shell.elements.sampled import Sampled
+from foilstudy.model.shell.elements.uncontrolled import Uncontrolled
 from foilstudy.model.shell.shell import Shell
 from foilstudy.model.shell.tangent import mass_matrix
 from foilstudy.model.shell.yielding import von_mises_stress
@@ -334,6 +337,27 @@ def test_elements_without_control_have_spurious_modes_at_free_edges(variant, cou
     assert zero_modes(Sampled(variant), 0.2) == count
 
 
+def checkerboard_energy(element):
+    """Energy of a plate whose control points go a hundredth of an element to and fro by turns.
+
+    Over that of a stretch of one per cent.
+    """
+    sheet, area = oblique_plate(element)
+    rows, columns = np.indices(sheet.patch.shape[1:])
+    amplitude = 0.01 * sheet.patch.size_around
+    points = sheet.reference.copy()
+    points[0] += amplitude * np.where((rows + columns) % 2, 1.0, -1.0)
+    stretched = plate_energy(np.diag([0.01, 0.0]), modulus(sheet)) * area
+    return sheet.energies(points).total / stretched
+
+
+def test_only_the_element_without_control_is_blind_to_a_checkerboard():
+    assert checkerboard_energy(Uncontrolled()) < 1e-3
+    assert checkerboard_energy(Full()) > 0.1
+    assert zero_modes(Uncontrolled(), 0.2) > 6
+    assert zero_modes(Full(), 0.2) == 6
+
+
 def frequencies(element, elements, thickness, count=12):
     """Lowest elastic natural frequencies of the free panel, rad/s."""
     sheet = free_panel(element, elements, thickness)
@@ -375,3 +399,17 @@ def test_an_open_patch_whose_ends_meet_is_no_other(around):
         assert np.isfinite(shell.force(bent, force)).all()
         forces.append(force)
     np.testing.assert_allclose(*forces, rtol=0, atol=1e-9 * np.abs(forces[1]).max())
+
+
+def test_full_integration_locks_at_an_unresolved_fold(coarse_crumple):
+    """It is far stiffer than the default on the mesh of the crumple, and less so on a finer one."""
+    sheet, points = coarse_crumple.sheet, coarse_crumple.points
+
+    def axial(element, patch, shape):
+        relieved = Shell.elastic(patch, shape, FEP, sheet.thickness, element)
+        return transfer_stiffness(relieved)[0]
+
+    default, full = (axial(e, sheet.patch, points) for e in (Corner(), Full()))
+    finer = axial(Full(), sheet.patch.refined(), refine(points))
+    assert full > 1.5 * default
+    assert default < finer < 0.8 * full

@@ -26,6 +26,7 @@ from foilstudy.model.shell.elements import ELEMENTS
 from foilstudy.model.shell.material import LAWS
 from foilstudy.model.shell.material.elastic import Elastic
 from foilstudy.pipeline.crumple import uncrumpled
+from foilstudy.pipeline.measures import STIFFNESS_MEASURES
 from foilstudy.solve.choices import DAMPINGS, MASSES, PATHS, SEARCHES
 from foilstudy.solve.equilibrium.settle import SettleOptions
 from foilstudy.solve.paths.relaxation import RelaxationPath
@@ -193,7 +194,7 @@ def test_a_record_of_another_release_is_refused():
 @pytest.mark.parametrize(
     "registry",
     [ELEMENTS, LAWS, IMPERFECTIONS, MASSES, DAMPINGS, SEARCHES, PATHS, STRESS_REMOVALS,
-     REDUCTIONS, STRUCTURAL_DAMPINGS],
+     REDUCTIONS, STRUCTURAL_DAMPINGS, STIFFNESS_MEASURES],
     ids=lambda registry: registry.kind,
 )  # fmt: skip
 def test_every_choice_can_be_loaded_and_knows_its_name(registry):

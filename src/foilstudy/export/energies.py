@@ -8,6 +8,7 @@ import numpy as np
 
 from foilstudy.model.patch import Patch
 from foilstudy.model.shell.elements.corner import Corner
+from foilstudy.model.shell.elements.full import Full
 from foilstudy.model.shell.elements.one_point import OnePoint
 from foilstudy.model.shell.elements.sampled import basis_weights
 from foilstudy.model.shell.elements.sampling import LAW_PAIRS, StrainSampling, corner
@@ -36,11 +37,14 @@ def element_energies(sheet: Shell, points: np.ndarray) -> np.ndarray:
     """
     element = sheet.element
     if isinstance(element, Corner):
-        return _sampled(sheet, points, corner(element.share(sheet.section)))
+        sampling = corner(element.share(sheet.section))
+        return _sampled(sheet, points, sampling, _folded_bending(sheet, points))
     if isinstance(element, OnePoint):
         return _one_point(sheet, points, element.stabilisation)
+    if isinstance(element, Full):
+        return _sampled(sheet, points, element.sampling, _bending(sheet, points, element.sampling))
     raise ValueError(
-        f"energies per element are known for the corner and the one-point element, not for "
+        f"energies per element are known for the elements of a configuration, not for "
         f"{element.name}; add its formula here."
     )
 
@@ -71,16 +75,43 @@ def _one_point(sheet: Shell, points: np.ndarray, stabilisation: float) -> np.nda
     )
 
 
-def _sampled(sheet: Shell, points: np.ndarray, sampling: StrainSampling) -> np.ndarray:
+def _sampled(
+    sheet: Shell, points: np.ndarray, sampling: StrainSampling, bending: np.ndarray
+) -> np.ndarray:
     strain = _membrane_samples(points, sheet.patch, sampling)
     strain -= _membrane_samples(sheet.reference, sheet.patch, sampling)
     energies = np.empty((3, *strain.shape[1:]))
     for part, forms in ((0, sampling.forms), (2, sampling.control)):
         quadratic = np.einsum("kab,aji,bji->jki", forms, strain, strain, optimize=True)
         energies[part] = 0.5 * (sheet.section.stiffness * quadratic).sum(axis=1)
-    change = _folded_curvature_change(sheet, points)
-    energies[1] = sheet.thickness**2 / 12 * _quadratic(sheet.section.stiffness, change)
+    energies[1] = bending
     return energies
+
+
+def _folded_bending(sheet: Shell, points: np.ndarray) -> np.ndarray:
+    change = _folded_curvature_change(sheet, points)
+    return sheet.thickness**2 / 12 * _quadratic(sheet.section.stiffness, change)
+
+
+def _bending(sheet: Shell, points: np.ndarray, sampling: StrainSampling) -> np.ndarray:
+    """By the curvatures b_ab at the bending points of a sampling without a fold."""
+    at, weights = [place[:2] for place in sampling.bending], [b[2] for b in sampling.bending]
+    change = _curvatures(sheet.reference, sheet.patch, at) - _curvatures(points, sheet.patch, at)
+    parts = [
+        w * _quadratic(sheet.section.stiffness, each)
+        for w, each in zip(weights, change, strict=True)
+    ]
+    return sheet.thickness**2 / 12 * np.sum(parts, axis=0)
+
+
+def _curvatures(points: np.ndarray, patch: Patch, at: list[tuple[float, float]]) -> np.ndarray:
+    """b_11, b_22 and twice b_12 at places of every element, shape (places, 3, along, around)."""
+    weights = basis_weights(at, patch.size_around, patch.size_along)
+    vectors = np.einsum("pnq,ncji->pqcji", weights, _stencils(points), optimize=True)
+    normal = np.cross(vectors[:, 0], vectors[:, 1], axis=1)
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    curvatures = np.einsum("pqcji,pcji->pqji", vectors[:, 2:], normal)
+    return curvatures * np.array([1.0, 1.0, 2.0])[:, None, None]
 
 
 def _membrane_samples(points: np.ndarray, patch: Patch, sampling: StrainSampling) -> np.ndarray:

@@ -20,9 +20,7 @@ def stress_free_structure(shape: Shape) -> Structure:
     SolveError
         If the stiffness with held rings is singular.
     """
-    matrix = shape.relieved().tangent()
-    stiffness = InterfaceSystem.split(matrix, Rings.of(shape.patch, shape.points))
-    return Structure.assembled(stiffness, mass(shape), _rigid_motions(shape))
+    return Structure.assembled(stress_free_stiffness(shape), mass(shape), _rigid_motions(shape))
 
 
 def prestressed_structure(shape: Shape) -> Structure:
@@ -33,6 +31,18 @@ def prestressed_structure(shape: Shape) -> Structure:
     SolveError
         If the tangent with held rings is singular.
     """
+    translations = _rigid_motions(shape)[:, :3]
+    return Structure.assembled(prestressed_stiffness(shape), mass(shape), translations)
+
+
+def stress_free_stiffness(shape: Shape) -> InterfaceSystem:
+    """Stiffness of the shape without its stresses, split by the rings."""
+    matrix = shape.relieved().tangent()
+    return InterfaceSystem.split(matrix, Rings.of(shape.patch, shape.points))
+
+
+def prestressed_stiffness(shape: Shape) -> InterfaceSystem:
+    """The same with its stresses, those included that turn with a loaded ring."""
     shell, points = shape.stressed, shape.points
     rings = Rings.of(shape.patch, points)
     stiffness = InterfaceSystem.split(shell.tangent(points), rings)
@@ -41,8 +51,7 @@ def prestressed_structure(shape: Shape) -> Structure:
     for ring, rows in enumerate((slice(0, RING_ROWS), slice(-RING_ROWS, None))):
         turning = slice(6 * ring + 3, 6 * ring + 6)
         stiffness.interface[turning, turning] += _turning_stiffness(points[:, rows], force[:, rows])
-    translations = _rigid_motions(shape)[:, :3]
-    return Structure.assembled(stiffness, mass(shape), translations)
+    return stiffness
 
 
 def _rigid_motions(shape: Shape) -> np.ndarray:

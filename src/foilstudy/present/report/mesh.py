@@ -18,7 +18,11 @@ PUBLISHED_LOCKING = (
     "thickness exponent holds for that mesh, not for the foil."
 )
 
-_ELEMENTS = {"corner": "corner-sampled", "one_point": "one-point"}
+_ELEMENTS = {
+    "corner": "corner-sampled",
+    "one_point": "one-point",
+    "full": "fully integrated",
+}
 _OLDEST_ELEMENT = "one_point"
 """Element of cubes from before there was a choice."""
 

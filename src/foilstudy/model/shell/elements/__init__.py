@@ -13,8 +13,16 @@ ELEMENTS = Registry(
             "model.shell.elements.one_point:OnePoint",
             "strains in its middle, much too stiff at unresolved ridges, as in the published work",
         ),
+        "uncontrolled": Choice(
+            "model.shell.elements.uncontrolled:Uncontrolled",
+            "one strain point and nothing else, which hourglasses; to see how it fails",
+        ),
+        "full": Choice(
+            "model.shell.elements.full:Full",
+            "full integration, which locks, and slow; to see how it fails",
+        ),
     },
 )
-"""Elements with a vectorised kernel, by the name a configuration gives them."""
+"""Elements by the name a configuration gives them; those to be used have a vectorised kernel."""
 
 __all__ = ["ELEMENTS"]
