@@ -16,6 +16,7 @@ from foilstudy.measure.dynamics import DynamicsOptions
 from foilstudy.model.foil import Imperfection
 from foilstudy.pipeline.crumpled import Recipe
 from foilstudy.pipeline.method import Mesh, Method
+from foilstudy.study.changes import changed, value_at
 from foilstudy.study.kernel.files import read_records
 from foilstudy.study.tradeoff import ensembles, figures, panel, tables
 from foilstudy.study.tradeoff.adaptive import present
@@ -24,7 +25,7 @@ from foilstudy.study.tradeoff.knees import beaten
 from foilstudy.study.tradeoff.pace import in_turns
 from foilstudy.study.tradeoff.plan import LADDERS, RESOLVED, STUDY
 from foilstudy.study.tradeoff.points import bias, default_of, text_of
-from foilstudy.study.tradeoff.settings import Point, changed, read_settings, value_at
+from foilstudy.study.tradeoff.settings import Point, read_settings
 
 ROOT = Path(__file__).parents[1]
 RECIPE = Recipe(Mesh(5e-3), Imperfection(), Method())

@@ -10,11 +10,12 @@ import numpy as np
 from scipy import stats
 
 from foilstudy.measure.dynamics import DynamicsOptions
+from foilstudy.study.changes import value_at
 from foilstudy.study.kernel.plan import Records
 from foilstudy.study.tradeoff import ensembles, panel
 from foilstudy.study.tradeoff.frozen import Static
 from foilstudy.study.tradeoff.plan import LADDERS, Ladder, shape_of
-from foilstudy.study.tradeoff.settings import Family, Point, value_at
+from foilstudy.study.tradeoff.settings import Family, Point
 
 _CONFIDENCE = 0.95
 _SAME = 1e-4

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import Field, dataclass, fields, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import pydantic
 
-from foilstudy.base.errors import ConfigError, Refusal
-from foilstudy.base.spec import registry_of
+from foilstudy.base.errors import ConfigError
 from foilstudy.config.sections import Section
 from foilstudy.config.sources import read_file
+from foilstudy.study.changes import Value, changed
 
 FILE = Path(__file__).resolve().parents[4] / "config/tradeoff.yaml"
 """Beside the sources: a package without them has no workflow, either."""
-Value = bool | int | float | str
-_METRES = {"mm": 1e-3, "um": 1e-6}
 _List = {"strict": False}
 
 DEFAULT = "default"
@@ -154,46 +152,3 @@ def read_settings(path: Path) -> Settings:
         first = error.errors()[0]
         place = ".".join(map(str, first["loc"]))
         raise ConfigError(f"{path}: {place}: {first['msg']}; see the entries beside it.") from None
-
-
-def changed(spec: Spec, place: str, value: Value) -> Spec:
-    """A specification with one of its values replaced.
-
-    A name in the place of a choice stands for that entry of its registry, with its own defaults.
-
-    Raises
-    ------
-    Refusal
-        If there is no such place or entry.
-    """
-    name, _, rest = place.partition(".")
-    item, factor = _field(spec, name)
-    if rest:
-        return replace(spec, **{item.name: changed(getattr(spec, item.name), rest, value)})
-    if registry := registry_of(item):
-        value = registry[value]()
-    return replace(spec, **{item.name: value if factor is None else factor * value})
-
-
-def value_at(spec: Any, place: str) -> Value:
-    """The value that `changed` would replace, in the unit of the place."""
-    for name in place.split("."):
-        item, factor = _field(spec, name)
-        spec = getattr(spec, item.name)
-    if registry_of(item):
-        return spec.kind
-    return spec if factor is None else round(spec / factor, 9)
-
-
-def _field(spec: Any, name: str) -> tuple[Field, float | None]:
-    """Field of a specification, and the unit in which a name gives its value."""
-    known = {item.name: item for item in fields(spec)}
-    stem, _, unit = name.rpartition("_")
-    if name not in known and stem in known and unit in _METRES:
-        return known[stem], _METRES[unit]
-    if name not in known:
-        raise Refusal(
-            f"config/tradeoff.yaml: {type(spec).__name__} has no {name!r}; use one of "
-            f"{', '.join(sorted(known))}."
-        )
-    return known[name], None
