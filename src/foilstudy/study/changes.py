@@ -20,7 +20,8 @@ def changed(spec: Spec, place: str, value: Value) -> Spec:
     """A specification with one of its values replaced.
 
     A place names a field, or by points one of its own: ``path.scheme.mass.safety``. A length may
-    end in its unit, ``element_size_mm``. A name in the place of a choice stands for that entry of its registry, with its own defaults.
+    end in its unit, ``element_size_mm``. A name in the place of a choice stands for that entry of
+    its registry, with its own defaults.
 
     Raises
     ------

@@ -13,6 +13,8 @@ MODULES = (
     "convergence.plan",
     "dynamics.plan",
     "tradeoff.plan",
+    "limits.plan",
+    "limits.quick",
 )
 """Modules of this package that define a ``STUDY``."""
 

@@ -1,0 +1,132 @@
+"""The methods of the map, as data: ``config/limits.yaml``; cheap to import."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pydantic
+
+from foilstudy.base.errors import ConfigError
+from foilstudy.config.sections import Section
+from foilstudy.config.sources import read_file
+from foilstudy.study.changes import Value
+
+FILE = Path(__file__).resolve().parents[4] / "config/limits.yaml"
+"""Beside the sources: a package without them has no workflow, either."""
+
+DEFAULT = "default"
+"""The method that nothing is changed of, to which all others are compared."""
+
+_List = {"strict": False}
+_SLUG = re.compile(r"[^A-Za-z0-9.+]+")
+
+
+class MappedFoil(Section):
+    """A foil of the map and the mesh it is crumpled on."""
+
+    thickness_um: int
+    height_mm: int
+    size_mm: float
+    seeds: int = pydantic.Field(ge=1)
+    groups: tuple[str, ...] | None = pydantic.Field(None, **_List)
+    """Those that are tried on it; all if it is left out."""
+
+
+class Mapped(Section):
+    """A method and what is varied of it.
+
+    Attributes
+    ----------
+    group : str
+        Methods of one group stand together in the map.
+    method : str
+        What it is called there.
+    set : mapping
+        Values by their places in a `foilstudy.pipeline.crumpled.Recipe`, in this order.
+    vary : str or None
+        A further place; one ending in ``_over_t`` counts in thicknesses of the foil.
+    values : tuple
+        Of that place, a row of the map each.
+    """
+
+    group: str
+    method: str
+    set: dict[str, Value] = {}
+    vary: str | None = None
+    values: tuple[Value, ...] = pydantic.Field((), **_List)
+
+
+class Limits(Section):
+    """All that is tried, in full and in the corner that takes minutes."""
+
+    foils: tuple[MappedFoil, ...] = pydantic.Field(**_List)
+    quick: tuple[MappedFoil, ...] = pydantic.Field(**_List)
+    methods: tuple[Mapped, ...] = pydantic.Field(**_List)
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One row of the map.
+
+    Attributes
+    ----------
+    group, method : str
+    value : str
+        Of what is varied; empty where nothing is.
+    changes : tuple of (place, value)
+    """
+
+    group: str
+    method: str
+    value: str
+    changes: tuple[tuple[str, Value], ...]
+
+    @property
+    def name(self) -> str:
+        """Part of file names: in words, with a digest of the changes behind it."""
+        words = _SLUG.sub("_", f"{self.method} {self.value}").strip("_")
+        content = json.dumps(self.changes).encode()
+        return f"{words}-{hashlib.sha256(content).hexdigest()[:8]}"
+
+    @property
+    def words(self) -> str:
+        """For people."""
+        return f"{self.method}, {self.value}" if self.value else self.method
+
+
+def settings_of(limits: Limits) -> Iterator[Setting]:
+    """Every row of the map, in its order."""
+    for one in limits.methods:
+        fixed = tuple(one.set.items())
+        if one.vary is None:
+            yield Setting(one.group, one.method, "", fixed)
+        for value in one.values:
+            shown = f"{value:g}" if isinstance(value, float) else str(value)
+            yield Setting(one.group, one.method, shown, (*fixed, (one.vary, value)))
+
+
+def read_limits(path: Path) -> Limits:
+    """The methods in a file.
+
+    Raises
+    ------
+    ConfigError
+        If it cannot be read or is of another form, or has no method without changes.
+    """
+    try:
+        limits = Limits.model_validate(read_file(path))
+    except pydantic.ValidationError as error:
+        first = error.errors()[0]
+        place = ".".join(map(str, first["loc"]))
+        raise ConfigError(f"{path}: {place}: {first['msg']}; see the entries beside it.") from None
+    if not any(s.method == DEFAULT and not s.changes for s in settings_of(limits)):
+        raise ConfigError(
+            f"{path}: methods: none is called {DEFAULT!r}; add one without changes, to which the "
+            "others are compared."
+        )
+    return limits

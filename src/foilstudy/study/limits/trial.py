@@ -1,0 +1,89 @@
+"""One foil crumpled by one method, and what its verdicts rest on."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, replace
+
+import numpy as np
+
+from foilstudy.base.errors import Refusal
+from foilstudy.linalg import SolveError
+from foilstudy.measure.verdicts import verdicts
+from foilstudy.model.foil import Foil, Imperfection
+from foilstudy.pipeline.crumple import crumple
+from foilstudy.pipeline.crumpled import Crumpled, Recipe
+from foilstudy.pipeline.evidence import evidence_of
+from foilstudy.pipeline.method import Mesh
+from foilstudy.study.changes import Value, changed
+from foilstudy.study.limits.plan import Trial, setting_of
+from foilstudy.study.published import foil
+from foilstudy.study.tradeoff.ensembles import method_for
+
+_OVER_THICKNESS = "_over_t"
+
+
+def measure(trial: Trial) -> dict:
+    """Crumple and judge.
+
+    Returns
+    -------
+    dict
+        ``status``, ``message``, ``verdicts`` (names), the numbers of the evidence, ``seconds`` of
+        the processor, ``steps``, ``hessians``, ``residual``, and ``points``: the shape, empty where
+        there is none.
+    """
+    sheet = foil(trial.thickness_um, trial.height_mm)
+    recipe = recipe_of(trial, sheet)
+    imperfection = replace(recipe.imperfection, seed=trial.seed)
+    try:
+        crumpled = crumple(sheet, recipe.mesh, imperfection, recipe.method)
+    except (Refusal, SolveError, ArithmeticError, ValueError) as error:
+        return _nothing("failed", f"{type(error).__name__}: {error}")
+    return _judged(crumpled)
+
+
+def recipe_of(trial: Trial, sheet: Foil) -> Recipe:
+    """That of a study with standard accuracy, changed as the method says."""
+    recipe = Recipe(Mesh(trial.size_mm * 1e-3), Imperfection(), method_for(sheet))
+    for place, value in setting_of(trial).changes:
+        recipe = changed(recipe, *_in_metres(place, value, sheet))
+    return recipe
+
+
+def _in_metres(place: str, value: Value, sheet: Foil) -> tuple[str, Value]:
+    if place.endswith(_OVER_THICKNESS):
+        return place.removesuffix(_OVER_THICKNESS), value * sheet.thickness
+    return place, value
+
+
+def _judged(crumpled: Crumpled) -> dict:
+    arrival = crumpled.arrival
+    if not np.isfinite(crumpled.points).all() or arrival.status in ("diverged", "failed"):
+        return _nothing(arrival.status, arrival.message) | _costs(crumpled)
+    evidence = evidence_of(crumpled, arrival.status, arrival.negative_eigenvalues)
+    return {
+        **asdict(evidence),
+        "message": arrival.message,
+        "verdicts": [verdict.name for verdict in verdicts(evidence)],
+        "points": crumpled.points.astype(np.float32),
+        **_costs(crumpled),
+    }
+
+
+def _costs(crumpled: Crumpled) -> dict:
+    arrival = crumpled.arrival
+    return {
+        "seconds": sum(cost.cpu_seconds for cost in arrival.costs.values()),
+        "steps": arrival.steps,
+        "hessians": arrival.hessians,
+        "residual": arrival.residual,
+    }
+
+
+def _nothing(status: str, message: str) -> dict:
+    return {
+        "status": status,
+        "message": message,
+        "verdicts": ["diverged"],
+        "points": np.empty(0, np.float32),
+    }
