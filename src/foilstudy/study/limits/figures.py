@@ -95,7 +95,7 @@ def gallery(fields: list[Field]):
     if not examples:
         return style.message_figure("no trial has left a shape")
     figure, axes = style.wrapped_grid(len(examples), 4, (_PICTURE, _PICTURE + 0.4), (0.2, 0.4))
-    for ax, (name, field, record) in zip(axes, examples, strict=True):
+    for ax, (name, field, record) in zip(axes.flat, examples):
         title = f"{name.replace('_', ' ')}: {field.foil.words}, {field.setting.words}"
         draw_shape(np.asarray(record.result["points"], float), RADIUS, title, ax)
         ax.set_title(title.replace(": ", "\n").replace(" mm, ", " mm\n"), fontsize=_FONT)
