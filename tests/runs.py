@@ -9,6 +9,9 @@ from pathlib import Path
 import yaml
 
 ROOT = Path(__file__).parents[1]
+_OF_SIDE_STUDIES = {ROOT / "config" / name for name in ("tradeoff.yaml", "limits.yaml")}
+STUDY_FILES = sorted(set((ROOT / "config").glob("*.yaml")) - _OF_SIDE_STUDIES)
+"""Configurations of studies; the others hold settings of side studies."""
 SNAKEMAKE = str(Path(sys.executable).with_name("snakemake"))
 
 

@@ -1,22 +1,23 @@
 """What the configuration accepts: every task can be made, `check` can say it, slips are named."""
 
 import math
-from pathlib import Path
 
 import pytest
 import yaml
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
+from runs import STUDY_FILES
 
 from foilstudy.command import main
 from foilstudy.config import ConfigError, CrumpleTask, RefineTask, ResponseTask, load_config
+from foilstudy.config.chosen import choices
 from foilstudy.config.foils import foil_of, patch_of
 from foilstudy.config.scene import dynamics_of, recipe_of
-from foilstudy.config.slips import likely_slips
+from foilstudy.config.slips import known_to_fail, likely_slips
+from foilstudy.solve.choices import DAMPINGS, MASSES
 from foilstudy.study.sweep.expected import costly, expected
 
-ROOT = Path(__file__).parents[1]
-FILES = sorted(set((ROOT / "config").glob("*.yaml")) - {ROOT / "config/tradeoff.yaml"})
+FILES = STUDY_FILES
 FOIL = {"thickness_um": [500], "reference_height_mm": [170]}
 
 
@@ -121,6 +122,35 @@ def slips_of(**sections):
 def test_the_study_files_hold_no_slip(file):
     study = load_config(file)
     assert not likely_slips(study) and not costly(expected(study))
+    assert not known_to_fail(study)
+
+
+@pytest.mark.parametrize(
+    ("sections", "essence"),
+    [
+        ({"method": {"mass": "nodal"}}, "method.mass is nodal"),
+        ({"method": {"damping": "kinetic"}}, "method.damping is kinetic"),
+        ({"mesh": {"element": "uncontrolled", "element_size_mm": 5}}, "mesh.element is uncontr"),
+        ({"relaxation": {"ramp_steps": 100}}, "0.05 steps for each unit of R/t of 50 um"),
+    ],
+)
+def test_what_is_known_to_fail_is_told_with_its_cure(sections, essence, capsys, tmp_path):
+    content = {"sweep": FOIL | {"thickness_um": [50, 500]}, "mesh": {"element_size_mm": 5}}
+    study = load_config(content | sections)
+    (sentence,) = known_to_fail(study)
+    assert essence in sentence and ("; use " in sentence or "give 1000 at least" in sentence)
+    assert sentence in "\n".join(choices(study))  # the start of a run
+    path = tmp_path / "study.yaml"
+    path.write_text(study.to_yaml(), encoding="utf-8")
+    main(["check", str(path)])
+    assert sentence in capsys.readouterr().out
+
+
+def test_every_method_that_is_no_default_says_what_fails_with_it():
+    for registry in (MASSES, DAMPINGS):
+        default, *others = registry
+        assert not registry.choice(default).caution
+        assert all(registry.choice(name).caution for name in others)
 
 
 @pytest.mark.parametrize(

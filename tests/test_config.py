@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+import runs
 import yaml
 from jsonschema import Draft202012Validator
 
@@ -29,7 +30,7 @@ from foilstudy.model.mesh_size import expected_energy_error
 from foilstudy.present.statistics.trust import ERROR_MAX
 
 CONFIG_FOLDER = Path(__file__).parents[1] / "config"
-CONFIG_FILES = sorted(set(CONFIG_FOLDER.glob("*.yaml")) - {CONFIG_FOLDER / "tradeoff.yaml"})
+CONFIG_FILES = runs.STUDY_FILES
 STUDY_FILES = [CONFIG_FOLDER / name for name in ("config.yaml", "thesis.yaml", "tiny.yaml")]
 
 

@@ -8,7 +8,7 @@ made from it at once.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from difflib import get_close_matches
 from importlib import import_module
 from typing import Any
@@ -42,10 +42,13 @@ class Choice:
         ``module:attribute``, the module relative to the package.
     words : str
         What it is, for a reference page: the end of a sentence that begins with its name.
+    caution : str
+        What fails with it and what to take instead, for whoever chooses it: a clause.
     """
 
     place: str
     words: str
+    caution: str = field(default="", kw_only=True)
 
     def load(self) -> Any:
         """The attribute itself."""

@@ -40,7 +40,7 @@ def check(file: Path, /, *, cores: Cores = 2) -> None:
     file : Path
         YAML file of the study.
     """
-    from foilstudy.config.slips import likely_slips, unresolved
+    from foilstudy.config.slips import known_to_fail, likely_slips, unresolved
     from foilstudy.study.sweep.expected import costly, expected
 
     study = read_study(file)
@@ -49,6 +49,8 @@ def check(file: Path, /, *, cores: Cores = 2) -> None:
     lines += (f"{name:10} {text}" for name, text in _resolved(study))
     lines += ["", *_table(study, cost), "", *_summary(cost, cores), *_least(study, cores)]
     lines += ["", *found] if (found := unresolved(study)) else []
+    if failing := known_to_fail(study):
+        lines += ["", "Known to fail (docs/limits.md):", *failing]
     if slips := [*likely_slips(study), *costly(cost)]:
         lines += ["", "Possible, but most likely a slip:", *slips]
     print("\n".join(lines))

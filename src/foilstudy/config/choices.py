@@ -11,7 +11,7 @@ from pydantic import BaseModel
 
 from foilstudy.base.registry import Registry
 
-__all__ = ["choice_of", "choices_of"]
+__all__ = ["cautions_of", "choice_of", "choices_of"]
 
 
 @dataclass(frozen=True)
@@ -20,12 +20,28 @@ class _Of:
 
     kind: str
     names: tuple[str, ...]
+    cautions: tuple[tuple[str, str], ...] = ()
 
 
 def choice_of(registry: Registry) -> Any:
     """Type of a value that is a name of a registry."""
     names = tuple(registry)
-    return Annotated[Literal[names], _Of(registry.kind, names)]
+    cautions = ((name, registry.choice(name).caution) for name in names)
+    known = tuple((name, words) for name, words in cautions if words)
+    return Annotated[Literal[names], _Of(registry.kind, names, known)]
+
+
+def cautions_of(section: BaseModel, path: str = "") -> Iterator[str]:
+    """A sentence for every choice in a section, and those in it, that is known to fail."""
+    for name, field in type(section).model_fields.items():
+        value, place = getattr(section, name), f"{path}{name}"
+        for registry in (*field.metadata, *_annotations(field.annotation)):
+            if isinstance(registry, _Of):
+                for chosen, words in registry.cautions:
+                    if chosen in _flat(value):
+                        yield f"{place} is {chosen}: {words}."
+        if isinstance(value, BaseModel):
+            yield from cautions_of(value, f"{place}.")
 
 
 def choices_of(*sections: BaseModel) -> dict[str, tuple[str, ...]]:

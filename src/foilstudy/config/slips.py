@@ -12,10 +12,11 @@ from itertools import chain
 from foilstudy.base.numerals import number
 from foilstudy.model.mesh_size import SLENDERNESS_MAX
 
+from .choices import cautions_of
 from .model import StudyConfig
 from .sections import RAMP_STEPS_MIN
 
-__all__ = ["likely_slips", "unresolved"]
+__all__ = ["known_to_fail", "likely_slips", "unresolved"]
 
 THICKNESS_MIN_UM = 1.0
 """Thinner foils are not on sale."""
@@ -32,6 +33,9 @@ YIELD_STRAIN_RANGE = (1e-4, 0.2)
 AMPLITUDE_MAX = 10.0
 """Of an imperfection, over the thickness."""
 TOLERANCE_RANGE = (1e-12, 1e-3)
+RAMP_SLOWNESS_MIN = 0.5
+"""Steps of the ramp for each unit of R/t: with 0.2 and less foil of 100 um has folded globally or
+hourglassed on every mesh that was tried, with 0.5 it has not."""
 ELEMENTS_MAX = 200_000
 """Of the mesh that is crumpled: ten times the finest of docs/convergence.md."""
 
@@ -47,6 +51,11 @@ def likely_slips(study: StudyConfig) -> list[str]:
             _of_mesh_and_band(study),
         )
     )
+
+
+def known_to_fail(study: StudyConfig) -> list[str]:
+    """Sentences about methods that fail, as docs/limits.md maps them, and what to take instead."""
+    return [*_of_ramp(study), *cautions_of(study)]
 
 
 def unresolved(study: StudyConfig) -> list[str]:
@@ -169,6 +178,23 @@ def _of_numerics(study: StudyConfig) -> Iterator[str]:
         yield (
             f"relaxation.ramp_steps is {relaxation.ramp_steps}, in which the foil cannot follow "
             "the ring; use some hundreds."
+        )
+
+
+def _of_ramp(study: StudyConfig) -> Iterator[str]:
+    """Ramps in which foil folds as a whole or zigzags from element to element (docs/limits.md)."""
+    radius = study.sheet.diameter_mm / 2
+    fast = {
+        thickness: steps / (1e3 * radius / thickness)
+        for thickness in study.thicknesses_um
+        for steps in (study.relaxation_of(thickness).ramp_steps,)
+    }
+    thickness, slowness = min(fast.items(), key=lambda item: item[1])
+    if slowness < RAMP_SLOWNESS_MIN:
+        yield (
+            f"relaxation.ramp_steps makes {slowness:.2g} steps for each unit of R/t of "
+            f"{thickness:g} um, in which foil folds as a whole or from element to element; leave "
+            f"it out, or give {math.ceil(RAMP_SLOWNESS_MIN * 1e3 * radius / thickness)} at least."
         )
 
 

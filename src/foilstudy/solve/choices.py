@@ -12,14 +12,26 @@ MASSES = Registry(
         "courant": Choice(
             "solve.relaxation.mass.courant:CourantMass",
             "no scaling, physical mass and the Courant step",
+            caution=(
+                "it may diverge once folds stiffen the sheet, and takes more steps than there are"
+                " where elements are small; use spectral"
+            ),
         ),
         "nodal": Choice(
             "solve.relaxation.mass.nodal:NodalMassScaling",
             "each control point raised to what its own stability takes",
+            caution=(
+                "long waves become as heavy as the shortest, so that the foil cannot follow the "
+                "ring; use spectral"
+            ),
         ),
         "selective": Choice(
             "solve.relaxation.mass.selective:SelectiveMassScaling",
             "off-diagonal terms that spare translations, solved iteratively",
+            caution=(
+                "it takes ten times as long as the spectral mass and its iterations may not "
+                "converge; use spectral"
+            ),
         ),
     },
 )
@@ -33,20 +45,35 @@ DAMPINGS = Registry(
         "adaptive_viscous_plain": Choice(
             "solve.relaxation.damping.adaptive_viscous_plain:PlainAdaptiveViscousDamping",
             "the same without the average",
+            caution=(
+                "it amplifies rounding, so that other machines crumple to other shapes; use "
+                "adaptive_viscous"
+            ),
         ),
         "fixed_viscous": Choice(
             "solve.relaxation.damping.fixed_viscous:FixedViscousDamping",
             "one coefficient",
+            caution="one coefficient serves one frequency; use adaptive_viscous",
         ),
         "kinetic": Choice(
             "solve.relaxation.damping.kinetic:KineticDamping",
             "motion stopped where the kinetic energy peaks",
+            caution=(
+                "thin foil comes to other shapes, and up to a third as stiff; use adaptive_viscous"
+            ),
         ),
         "kinetic_reset": Choice(
             "solve.relaxation.damping.kinetic_reset:KineticResetDamping",
             "velocities cleared once the kinetic energy has fallen",
+            caution="the motion breaks down; use adaptive_viscous",
         ),
-        "none": Choice("solve.relaxation.damping.none:NoDamping", "no damping"),
+        "none": Choice(
+            "solve.relaxation.damping.none:NoDamping",
+            "no damping",
+            caution=(
+                "the foil swings through many shapes before it rests in one; use adaptive_viscous"
+            ),
+        ),
     },
 )
 SEARCHES = Registry(

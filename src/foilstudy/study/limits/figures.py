@@ -83,6 +83,7 @@ def _panel(ax, quantity, settings, foils, found) -> None:
     for i in range(1, len(groups)):
         if groups[i] != groups[i - 1]:
             ax.axhline(i - 0.5, color="black", linewidth=0.6)
+    ax.grid(False)
     ax.tick_params(length=0)
     for side in ax.spines.values():
         side.set_visible(False)

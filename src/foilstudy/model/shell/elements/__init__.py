@@ -16,10 +16,12 @@ ELEMENTS = Registry(
         "uncontrolled": Choice(
             "model.shell.elements.uncontrolled:Uncontrolled",
             "one strain point and nothing else, which hourglasses; to see how it fails",
+            caution="elements hourglass; use corner",
         ),
         "full": Choice(
             "model.shell.elements.full:Full",
             "full integration, which locks, and slow; to see how it fails",
+            caution="elements lock, up to 36 times too much energy in thin foil; use corner",
         ),
     },
 )
