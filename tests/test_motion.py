@@ -1,5 +1,7 @@
 """Masses and dampings of the relaxation that are not the default ones, by what theory says."""
 
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
 from conftest import FEP, cylinder, imperfect_sheet
@@ -170,37 +172,44 @@ class Watched(Problem):
         return super().force(points, out)
 
 
+@dataclass(frozen=True)
+class Mode:
+    """Frequency per step, shape, and what finds its amplitude in a motion."""
+
+    omega: float
+    shape: np.ndarray
+    weights: np.ndarray
+
+
 @pytest.fixture(scope="module")
-def mode():
-    """The lowest mode of a cylinder with its lumped mass: frequency per step, shape, weights."""
+def modes():
+    """The lowest and the highest mode of a cylinder with its lumped mass."""
     problem = Problem(cylinder(SIZE))
     mass = CourantMass(STEP).start(problem)
-    diagonal = np.repeat((mass.masses / mass.time_step**2).ravel(), 3)
-    root = np.sqrt(diagonal)
+    root = np.sqrt(np.repeat((mass.masses / mass.time_step**2).ravel(), 3))
     stiffness = PhysicalSheet(problem).stiffness.toarray()
     values, vectors = np.linalg.eigh(stiffness / np.outer(root, root))
-    return np.sqrt(values[0]), vectors[:, 0] / root, vectors[:, 0] * root
+    return [Mode(np.sqrt(values[k]), vectors[:, k] / root, vectors[:, k] * root) for k in (0, -1)]
 
 
 AMPLITUDE = 1e-9
-"""Of the mode; so small that the sheet is linear. Mass-normalised shapes are of order 1e-2 here."""
+"""Largest motion of a control point, m: so small that the sheet is linear."""
 
 
 def let_go(mode, damping, steps):
     """Amplitudes of the mode along a relaxation from it, over the first one."""
-    omega, shape, weights = mode
-    problem = Watched(cylinder(SIZE), weights)
+    problem = Watched(cylinder(SIZE), mode.weights)
     _, rows, columns = free_shape(problem)
     start = problem.reference.copy()
-    moved = AMPLITUDE * shape / np.abs(shape).max()
+    moved = AMPLITUDE * mode.shape / np.abs(mode.shape).max()
     start[:, RING_ROWS:-RING_ROWS] += np.moveaxis(moved.reshape(rows, columns, 3), -1, 0)
     motion = Scheme(CourantMass(STEP), damping, damping).start(problem)
     relax(problem, motion, Ramp(0.0, 0), StoppingRule(0.0, steps), start)
     return np.array(problem.amplitudes) / problem.amplitudes[0]
 
 
-def test_a_mode_is_at_rest_a_quarter_period_after_it_was_let_go(mode):
-    omega = mode[0]
+def test_a_mode_is_at_rest_a_quarter_period_after_it_was_let_go(modes):
+    mode, omega = modes[0], modes[0].omega
     quarter = 0.5 * np.pi / omega
     assert omega < 0.1
     amplitudes = let_go(mode, KineticDamping(), round(4 * quarter))
@@ -211,6 +220,15 @@ def test_a_mode_is_at_rest_a_quarter_period_after_it_was_let_go(mode):
     reset = let_go(mode, KineticResetDamping(), round(4 * quarter))
     left = np.abs(reset[after:]).max()
     assert 0.4 * omega < left < 1.6 * omega
+
+
+def test_a_plain_reset_drives_the_highest_mode_that_a_stop_at_the_peak_calms(modes):
+    """From rest the whole force takes x to (1 - omega^2) x: beyond omega^2 = 2 it grows."""
+    mode = modes[1]
+    assert 2 < mode.omega**2 < 4
+    driven = let_go(mode, KineticResetDamping(), 21)
+    np.testing.assert_allclose(driven[3::2] / driven[1:-2:2], 1 - mode.omega**2, rtol=1e-4)
+    assert np.abs(let_go(mode, KineticDamping(), 60)[30:]).max() < 0.1
 
 
 @pytest.mark.parametrize("peak", [-0.45, -0.1, 0.0, 0.3, 0.499])
@@ -225,8 +243,8 @@ def test_the_peak_of_a_parabola_is_found(peak):
 
 
 @pytest.mark.parametrize("coefficient", [0.0, 0.003, 0.01])
-def test_fixed_viscous_damping_takes_from_a_mode_what_theory_says(mode, coefficient):
-    omega, steps = mode[0], 400
+def test_fixed_viscous_damping_takes_from_a_mode_what_theory_says(modes, coefficient):
+    mode, omega, steps = modes[0], modes[0].omega, 400
     damping = FixedViscousDamping(coefficient) if coefficient else NoDamping()
     amplitudes = let_go(mode, damping, steps)
     # the recurrence x'' + c x' + omega^2 x = 0 by central differences
