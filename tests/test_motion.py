@@ -268,3 +268,25 @@ def test_the_plain_coefficient_forgets():
 def test_a_coefficient_that_would_drive_or_reverse_the_motion_is_refused(coefficient):
     with pytest.raises(Refusal, match="coefficient of fixed viscous damping"):
         FixedViscousDamping(coefficient)
+
+
+# --- ring alone ----------------------------------------------------------------------------------
+
+
+def test_a_ring_that_moves_alone_leads_to_the_same_equilibrium_before_buckling():
+    """There it is unique; only the way differs."""
+    problem = Problem(imperfect_sheet(SIZE))
+    reference, shortening = problem.reference, 2e-6
+    first, last = [], []
+    for spread in (True, False):
+        ramp = Ramp(shortening, 100, spread)
+        for steps, shapes in ((Ramp(shortening, 1, spread), first), (ramp, last)):
+            rule = StoppingRule(1e-9, 20_000 if steps is ramp else 0)
+            result = relax(problem, Scheme().start(problem), steps, rule)
+            shapes.append(result.points - reference)
+    assert result.status == "converged"
+    np.testing.assert_allclose(last[1], last[0], atol=1e-4 * shortening)
+    # after one step the sheet has followed, or none but the ring has moved
+    assert np.all(first[0][2, 2 * RING_ROWS : -RING_ROWS] < 0)
+    assert np.abs(first[1][:, :-RING_ROWS]).max() < 1e-9 * shortening
+    np.testing.assert_allclose(first[1][2, -RING_ROWS:], -shortening)
