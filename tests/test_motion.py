@@ -7,8 +7,13 @@ import pytest
 from conftest import FEP, cylinder, imperfect_sheet
 
 from foilstudy.base.errors import Refusal
+from foilstudy.base.spec import dumped, loaded
+from foilstudy.config import load_config
+from foilstudy.config.scene import method_of
 from foilstudy.linalg import SolveError
 from foilstudy.model.patch import RING_ROWS
+from foilstudy.pipeline.method import Method
+from foilstudy.solve import choices
 from foilstudy.solve.problem import Problem
 from foilstudy.solve.relaxation import Ramp, Scheme, StoppingRule, relax
 from foilstudy.solve.relaxation.damping.adaptive_viscous_plain import PlainAdaptiveViscousDamping
@@ -290,3 +295,19 @@ def test_a_ring_that_moves_alone_leads_to_the_same_equilibrium_before_buckling()
     assert np.all(first[0][2, 2 * RING_ROWS : -RING_ROWS] < 0)
     assert np.abs(first[1][:, :-RING_ROWS]).max() < 1e-9 * shortening
     np.testing.assert_allclose(first[1][2, -RING_ROWS:], -shortening)
+
+
+# --- as data -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("mass", list(choices.MASSES))
+@pytest.mark.parametrize("damping", list(choices.DAMPINGS))
+def test_a_study_can_choose_it_and_its_record_says_so(mass, damping):
+    section = {"mass": mass, "damping": damping, "path": "ring_alone"}
+    sweep = {"thickness_um": [500], "reference_height_mm": [150]}
+    study = load_config({"sweep": sweep, "method": section})
+    method = method_of(study.crumple_task(study.cells()[0]))
+    scheme = method.path.scheme
+    assert (scheme.mass.kind, scheme.ramp_damping.kind) == (mass, damping)
+    assert scheme.relaxation_damping.kind == damping
+    assert loaded(Method, dumped(method)) == method and method.path.kind == "ring_alone"
