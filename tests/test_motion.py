@@ -16,6 +16,7 @@ from foilstudy.pipeline.method import Method
 from foilstudy.solve import choices
 from foilstudy.solve.problem import Problem
 from foilstudy.solve.relaxation import Ramp, Scheme, StoppingRule, relax
+from foilstudy.solve.relaxation.damping import Damper, Halt
 from foilstudy.solve.relaxation.damping.adaptive_viscous_plain import PlainAdaptiveViscousDamping
 from foilstudy.solve.relaxation.damping.fixed_viscous import FixedViscousDamping
 from foilstudy.solve.relaxation.damping.kinetic import KineticDamping
@@ -227,12 +228,35 @@ def test_a_mode_is_at_rest_a_quarter_period_after_it_was_let_go(modes):
     assert 0.4 * omega < left < 1.6 * omega
 
 
+class Stopping(Damper):
+    """Stops in every second step, at the shape that has been reached."""
+
+    def __init__(self, push):
+        self._push, self._calls = push, 0
+
+    def start(self):
+        return Stopping(self._push)
+
+    def coefficient(self, work_rate, momentum_norm):
+        return 0.0
+
+    def halt(self, momentum_norm):
+        self._calls += 1
+        return Halt(0.0, self._push) if self._calls % 2 == 0 else None
+
+
+@pytest.mark.parametrize("push", [0.5, 1.0])
+def test_the_first_step_from_rest_takes_its_share_of_the_force(modes, push):
+    for mode in modes:
+        amplitudes = let_go(mode, Stopping(push), 21)
+        factor = 1 - push * mode.omega**2
+        np.testing.assert_allclose(amplitudes[3::2] / amplitudes[1:-2:2], factor, rtol=1e-3)
+
+
 def test_a_plain_reset_drives_the_highest_mode_that_a_stop_at_the_peak_calms(modes):
-    """From rest the whole force takes x to (1 - omega^2) x: beyond omega^2 = 2 it grows."""
     mode = modes[1]
     assert 2 < mode.omega**2 < 4
-    driven = let_go(mode, KineticResetDamping(), 21)
-    np.testing.assert_allclose(driven[3::2] / driven[1:-2:2], 1 - mode.omega**2, rtol=1e-4)
+    assert np.abs(let_go(mode, KineticResetDamping(), 21)).max() > 10
     assert np.abs(let_go(mode, KineticDamping(), 60)[30:]).max() < 0.1
 
 
