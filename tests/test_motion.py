@@ -1,14 +1,22 @@
 """Masses and dampings of the relaxation that are not the default ones, by what theory says."""
 
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
 from conftest import FEP, cylinder, imperfect_sheet
 
 from foilstudy.base.errors import Refusal
+from foilstudy.base.spec import dumped, loaded
+from foilstudy.config import load_config
+from foilstudy.config.scene import method_of
 from foilstudy.linalg import SolveError
 from foilstudy.model.patch import RING_ROWS
+from foilstudy.pipeline.method import Method
+from foilstudy.solve import choices
 from foilstudy.solve.problem import Problem
 from foilstudy.solve.relaxation import Ramp, Scheme, StoppingRule, relax
+from foilstudy.solve.relaxation.damping import Damper, Halt
 from foilstudy.solve.relaxation.damping.adaptive_viscous_plain import PlainAdaptiveViscousDamping
 from foilstudy.solve.relaxation.damping.fixed_viscous import FixedViscousDamping
 from foilstudy.solve.relaxation.damping.kinetic import KineticDamping
@@ -170,37 +178,44 @@ class Watched(Problem):
         return super().force(points, out)
 
 
+@dataclass(frozen=True)
+class Mode:
+    """Frequency per step, shape, and what finds its amplitude in a motion."""
+
+    omega: float
+    shape: np.ndarray
+    weights: np.ndarray
+
+
 @pytest.fixture(scope="module")
-def mode():
-    """The lowest mode of a cylinder with its lumped mass: frequency per step, shape, weights."""
+def modes():
+    """The lowest and the highest mode of a cylinder with its lumped mass."""
     problem = Problem(cylinder(SIZE))
     mass = CourantMass(STEP).start(problem)
-    diagonal = np.repeat((mass.masses / mass.time_step**2).ravel(), 3)
-    root = np.sqrt(diagonal)
+    root = np.sqrt(np.repeat((mass.masses / mass.time_step**2).ravel(), 3))
     stiffness = PhysicalSheet(problem).stiffness.toarray()
     values, vectors = np.linalg.eigh(stiffness / np.outer(root, root))
-    return np.sqrt(values[0]), vectors[:, 0] / root, vectors[:, 0] * root
+    return [Mode(np.sqrt(values[k]), vectors[:, k] / root, vectors[:, k] * root) for k in (0, -1)]
 
 
 AMPLITUDE = 1e-9
-"""Of the mode; so small that the sheet is linear. Mass-normalised shapes are of order 1e-2 here."""
+"""Largest motion of a control point, m: so small that the sheet is linear."""
 
 
 def let_go(mode, damping, steps):
     """Amplitudes of the mode along a relaxation from it, over the first one."""
-    omega, shape, weights = mode
-    problem = Watched(cylinder(SIZE), weights)
+    problem = Watched(cylinder(SIZE), mode.weights)
     _, rows, columns = free_shape(problem)
     start = problem.reference.copy()
-    moved = AMPLITUDE * shape / np.abs(shape).max()
+    moved = AMPLITUDE * mode.shape / np.abs(mode.shape).max()
     start[:, RING_ROWS:-RING_ROWS] += np.moveaxis(moved.reshape(rows, columns, 3), -1, 0)
     motion = Scheme(CourantMass(STEP), damping, damping).start(problem)
     relax(problem, motion, Ramp(0.0, 0), StoppingRule(0.0, steps), start)
     return np.array(problem.amplitudes) / problem.amplitudes[0]
 
 
-def test_a_mode_is_at_rest_a_quarter_period_after_it_was_let_go(mode):
-    omega = mode[0]
+def test_a_mode_is_at_rest_a_quarter_period_after_it_was_let_go(modes):
+    mode, omega = modes[0], modes[0].omega
     quarter = 0.5 * np.pi / omega
     assert omega < 0.1
     amplitudes = let_go(mode, KineticDamping(), round(4 * quarter))
@@ -211,6 +226,38 @@ def test_a_mode_is_at_rest_a_quarter_period_after_it_was_let_go(mode):
     reset = let_go(mode, KineticResetDamping(), round(4 * quarter))
     left = np.abs(reset[after:]).max()
     assert 0.4 * omega < left < 1.6 * omega
+
+
+class Stopping(Damper):
+    """Stops in every second step, at the shape that has been reached."""
+
+    def __init__(self, push):
+        self._push, self._calls = push, 0
+
+    def start(self):
+        return Stopping(self._push)
+
+    def coefficient(self, work_rate, momentum_norm):
+        return 0.0
+
+    def halt(self, momentum_norm):
+        self._calls += 1
+        return Halt(0.0, self._push) if self._calls % 2 == 0 else None
+
+
+@pytest.mark.parametrize("push", [0.5, 1.0])
+def test_the_first_step_from_rest_takes_its_share_of_the_force(modes, push):
+    for mode in modes:
+        amplitudes = let_go(mode, Stopping(push), 21)
+        factor = 1 - push * mode.omega**2
+        np.testing.assert_allclose(amplitudes[3::2] / amplitudes[1:-2:2], factor, rtol=1e-3)
+
+
+def test_a_plain_reset_drives_the_highest_mode_that_a_stop_at_the_peak_calms(modes):
+    mode = modes[1]
+    assert 2 < mode.omega**2 < 4
+    assert np.abs(let_go(mode, KineticResetDamping(), 21)).max() > 10
+    assert np.abs(let_go(mode, KineticDamping(), 60)[30:]).max() < 0.1
 
 
 @pytest.mark.parametrize("peak", [-0.45, -0.1, 0.0, 0.3, 0.499])
@@ -225,8 +272,8 @@ def test_the_peak_of_a_parabola_is_found(peak):
 
 
 @pytest.mark.parametrize("coefficient", [0.0, 0.003, 0.01])
-def test_fixed_viscous_damping_takes_from_a_mode_what_theory_says(mode, coefficient):
-    omega, steps = mode[0], 400
+def test_fixed_viscous_damping_takes_from_a_mode_what_theory_says(modes, coefficient):
+    mode, omega, steps = modes[0], modes[0].omega, 400
     damping = FixedViscousDamping(coefficient) if coefficient else NoDamping()
     amplitudes = let_go(mode, damping, steps)
     # the recurrence x'' + c x' + omega^2 x = 0 by central differences
@@ -250,3 +297,41 @@ def test_the_plain_coefficient_forgets():
 def test_a_coefficient_that_would_drive_or_reverse_the_motion_is_refused(coefficient):
     with pytest.raises(Refusal, match="coefficient of fixed viscous damping"):
         FixedViscousDamping(coefficient)
+
+
+# --- ring alone ----------------------------------------------------------------------------------
+
+
+def test_a_ring_that_moves_alone_leads_to_the_same_equilibrium_before_buckling():
+    """There it is unique; only the way differs."""
+    problem = Problem(imperfect_sheet(SIZE))
+    reference, shortening = problem.reference, 2e-6
+    first, last = [], []
+    for spread in (True, False):
+        ramp = Ramp(shortening, 100, spread)
+        for steps, shapes in ((Ramp(shortening, 1, spread), first), (ramp, last)):
+            rule = StoppingRule(1e-9, 20_000 if steps is ramp else 0)
+            result = relax(problem, Scheme().start(problem), steps, rule)
+            shapes.append(result.points - reference)
+    assert result.status == "converged"
+    np.testing.assert_allclose(last[1], last[0], atol=1e-4 * shortening)
+    # after one step the sheet has followed, or none but the ring has moved
+    assert np.all(first[0][2, 2 * RING_ROWS : -RING_ROWS] < 0)
+    assert np.abs(first[1][:, :-RING_ROWS]).max() < 1e-9 * shortening
+    np.testing.assert_allclose(first[1][2, -RING_ROWS:], -shortening)
+
+
+# --- as data -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("mass", list(choices.MASSES))
+@pytest.mark.parametrize("damping", list(choices.DAMPINGS))
+def test_a_study_can_choose_it_and_its_record_says_so(mass, damping):
+    section = {"mass": mass, "damping": damping, "path": "ring_alone"}
+    sweep = {"thickness_um": [500], "reference_height_mm": [150]}
+    study = load_config({"sweep": sweep, "method": section})
+    method = method_of(study.crumple_task(study.cells()[0]))
+    scheme = method.path.scheme
+    assert (scheme.mass.kind, scheme.ramp_damping.kind) == (mass, damping)
+    assert scheme.relaxation_damping.kind == damping
+    assert loaded(Method, dumped(method)) == method and method.path.kind == "ring_alone"

@@ -91,6 +91,10 @@ PATHS = Registry(
         "relaxation": Choice(
             "solve.paths.relaxation:RelaxationPath",
             "the top ring closes the gap in a ramp while the sheet relaxes, then it settles",
-        )
+        ),
+        "ring_alone": Choice(
+            "solve.paths.ring_alone:RingAlonePath",
+            "the same without spreading the ring's motion over the height, as explicit codes do",
+        ),
     },
 )

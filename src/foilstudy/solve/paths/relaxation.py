@@ -51,7 +51,7 @@ class RelaxationPath:
         """See `Path`."""
         motion, settling = self.scheme.start(problem), self.settling
         with measured() as relaxing:
-            relaxed = relax(problem, motion, Ramp(shortening, self.ramp_steps), self._rule())
+            relaxed = relax(problem, motion, self._ramp(shortening), self._rule())
         if relaxed.status == "diverged":
             return _diverged(relaxed, {"relaxing": relaxing})
         left = settling.relaxation_steps_max - (relaxed.steps - self.ramp_steps)
@@ -62,7 +62,7 @@ class RelaxationPath:
 
     def push(self, problem: Problem, shortening: float) -> Arrival:
         """See `Path`."""
-        return self._relaxed(problem, Ramp(shortening, self.ramp_steps), None)
+        return self._relaxed(problem, self._ramp(shortening), None)
 
     def relax(self, problem: Problem, points: np.ndarray) -> Arrival:
         """See `Path`."""
@@ -75,6 +75,9 @@ class RelaxationPath:
             relaxed.status, relaxed.message, relaxed.points, relaxed.residual, None,
             relaxed.steps, 0, 0, relaxed.history, {"relaxing": cost},
         )  # fmt: skip
+
+    def _ramp(self, shortening: float) -> Ramp:
+        return Ramp(shortening, self.ramp_steps)
 
     def _rule(self) -> StoppingRule:
         settling = self.settling

@@ -20,10 +20,20 @@ class Ramp:
     """Smooth motion of the top ring down to the gap height, in `steps` pseudo-time steps.
 
     With zero steps the ring stands still.
+
+    Attributes
+    ----------
+    shortening : float
+        m.
+    steps : int
+    spread : bool
+        Whether each increment is spread over the height, so that the sheet does not lag behind at
+        the moving ring; without, the ring moves alone.
     """
 
     shortening: float
     steps: int
+    spread: bool = True
 
     def shortening_at(self, step: int) -> float:
         """Quintic ramp 10 tau^3 - 15 tau^4 + 6 tau^5: no velocity or acceleration at its ends."""
@@ -157,8 +167,7 @@ def relax(
 ) -> RelaxationResult:
     """Push the top ring of a sheet down and relax the sheet to equilibrium.
 
-    Each increment of the ring's motion is spread over the height, so that the sheet does not lag
-    behind at the moving ring. Terms with memory take note of the shape after every step.
+    Terms with memory take note of the shape after every step.
 
     Parameters
     ----------
@@ -179,7 +188,9 @@ def relax(
     points = (problem.reference if start is None else start).copy()
     rows = points.shape[1]
     free = (RING_ROWS, rows - RING_ROWS)
-    share = np.clip(points[2].mean(axis=1) / (problem.patch.size_along * (rows - 2)), 0.0, 1.0)
+    share = np.zeros(rows)
+    if ramp.spread:
+        share = np.clip(points[2].mean(axis=1) / (problem.patch.size_along * (rows - 2)), 0.0, 1.0)
     share[:RING_ROWS], share[-RING_ROWS:] = 0.0, 1.0
     force = np.empty_like(points)
     momentum = np.zeros((3, free[1] - free[0], points.shape[2]))
