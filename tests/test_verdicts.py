@@ -15,7 +15,7 @@ from foilstudy.measure.verdicts import (
     verdicts,
 )
 from foilstudy.measure.verdicts.evidence import least_stiffness
-from foilstudy.measure.verdicts.shape import alternation, broad_wave_share
+from foilstudy.measure.verdicts.shape import alternation, broad_wave_share, calmer_half
 
 ELEMENT = 2 * np.pi * RADIUS / COLUMNS
 FLAT = handmade.shape(0.0)
@@ -26,6 +26,7 @@ def seen(points):
     return Evidence(
         "converged",
         broad_wave_share=broad_wave_share(points),
+        calmer_half=calmer_half(points),
         alternation=alternation((points - FLAT) / ELEMENT),
     )
 
@@ -50,7 +51,7 @@ def test_a_checkerboard_is_an_hourglass(name):
 
 
 def test_a_perfect_cylinder_shows_nothing():
-    assert np.isnan(broad_wave_share(FLAT))
+    assert np.isnan(broad_wave_share(FLAT)) and np.isnan(calmer_half(FLAT))
     assert np.isnan(alternation(np.zeros_like(FLAT)))
     assert names(seen(FLAT)) == {"converged"}
 
@@ -79,6 +80,7 @@ SOUND = {
     "membrane_energy": 0.7,
     "bending_energy": 3.5,
     "broad_wave_share": 0.4,
+    "calmer_half": 0.9,
     "alternation": -0.6,
     "self_crossing_share": 0.0,
     "beyond_yield_share": 0.0,
@@ -93,7 +95,7 @@ CHANGES = {
     "singular": {"prestressed_stiffness": (np.nan, 1e4)},
     "spurious": {"static_stiffness": (-5.0, 3e4)},
     "hourglassed": {"alternation": 0.8},
-    "folded_globally": {"broad_wave_share": 0.97},
+    "folded_globally": {"broad_wave_share": 0.8, "calmer_half": 0.2},
     "self_crossing": {"self_crossing_share": 1e-3},
     "beyond_yield": {"beyond_yield_share": 0.4},
 }

@@ -10,7 +10,7 @@ from foilstudy.linalg import SolveError
 from foilstudy.measure.stiffness import prestressed_stiffness
 from foilstudy.measure.stiffness.directional import DIRECTIONS
 from foilstudy.measure.verdicts import Evidence
-from foilstudy.measure.verdicts.shape import alternation, broad_wave_share
+from foilstudy.measure.verdicts.shape import alternation, broad_wave_share, calmer_half
 from foilstudy.model.patch import knot_points
 from foilstudy.model.shell.folding import fold_angle
 from foilstudy.model.shell.intersection import self_crossing_share
@@ -28,6 +28,7 @@ def sensors(shape: Shape) -> dict[str, float]:
         "beyond_yield_share": beyond_yield_share(shape.stressed, shape.points),
         "self_crossing_share": self_crossing_share(surface),
         "broad_wave_share": broad_wave_share(surface),
+        "calmer_half": calmer_half(surface),
         "alternation": alternation((shape.points - shape.reference) / size),
     }
 

@@ -29,6 +29,10 @@ BROAD_MAX = 0.9
 """Share of broad waves (`broad_wave_share`) from which a cylinder has folded as a whole: 0.29 to
 0.75 in the crumples of the published case, 1 of a concertina, a pleat or a kink."""
 
+BROAD_BESIDE_CALM, CALM = 0.75, 0.35
+"""The same where the calmer half of the height is displaced less than this share of the other one
+(`calmer_half`): a fold beside a ring. Crumples have 0.5 and more."""
+
 ALTERNATION_MAX = 0.5
 """Alternation above which elements hourglass: that of white noise. Resolved crumples have -0.87 to
 -0.43, those of 50 um on elements of 5 mm, which do not resolve them, up to 0.41."""
@@ -80,6 +84,11 @@ def _locked(e: Evidence) -> bool:
     return e.bending_energy < BENDING_MIN * e.membrane_energy
 
 
+def _folded(e: Evidence) -> bool:
+    beside_ring = e.broad_wave_share > BROAD_BESIDE_CALM and e.calmer_half < CALM
+    return e.broad_wave_share > BROAD_MAX or beside_ring
+
+
 def _singular(e: Evidence) -> bool:
     return not np.isfinite([*e.static_stiffness, *e.prestressed_stiffness]).all()
 
@@ -125,7 +134,7 @@ VERDICTS = (
     Verdict(
         "folded_globally",
         "the cylinder has folded as a whole, instead of crumpling into ridges",
-        lambda e: e.broad_wave_share > BROAD_MAX,
+        _folded,
         fault=True,
         cure="use the spectral mass and a slower ramp, and give the foil an imperfection",
     ),

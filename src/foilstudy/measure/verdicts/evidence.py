@@ -23,7 +23,7 @@ class Evidence:
         Of the tangent at the end, rings held.
     membrane_energy, bending_energy : float
         J.
-    broad_wave_share, alternation : float
+    broad_wave_share, calmer_half, alternation : float
         See `foilstudy.measure.verdicts.shape`.
     self_crossing_share, beyond_yield_share : float
         Of the surface.
@@ -43,6 +43,7 @@ class Evidence:
     membrane_energy: float = np.nan
     bending_energy: float = np.nan
     broad_wave_share: float = np.nan
+    calmer_half: float = np.nan
     alternation: float = np.nan
     self_crossing_share: float = np.nan
     beyond_yield_share: float = np.nan

@@ -31,15 +31,50 @@ def broad_wave_share(surface: np.ndarray) -> float:
     float
         Mean square of the waves 0 and 1 around over that of all; NaN of a perfect cylinder.
     """
-    radius = np.hypot(surface[0], surface[1])
-    ring = 0.5 * (radius[0].mean() + radius[-1].mean())
-    power = np.abs(np.fft.rfft(radius - ring, axis=1)) ** 2
-    last = None if radius.shape[1] % 2 else -1  # the shortest wave of an even number stands alone
+    displacement, ring = _radial(surface)
+    power = np.abs(np.fft.rfft(displacement, axis=1)) ** 2
+    last = (
+        None if displacement.shape[1] % 2 else -1
+    )  # the shortest wave of an even number stands alone
     power[:, 1:last] *= 2
     total = power.sum()
     if not total > (_ROUNDING * ring * power.size) ** 2:
         return np.nan
     return float(power[:, : BROAD_WAVES + 1].sum() / total)
+
+
+def calmer_half(surface: np.ndarray) -> float:
+    """How much less the calmer half of the height is displaced than the other one.
+
+    A fold that runs around beside one ring takes all of the overlength and leaves the rest of the
+    cylinder as it was.
+
+    Parameters
+    ----------
+    surface : ndarray, shape (3, rows, columns)
+        See `broad_wave_share`.
+
+    Returns
+    -------
+    float
+        Root mean square radial displacement of that half over that of the other, at most 1; NaN of
+        a perfect cylinder.
+    """
+    displacement, ring = _radial(surface)
+    half = len(displacement) // 2
+    lower, upper = (
+        np.sqrt(np.mean(part**2)) for part in (displacement[:half], displacement[-half:])
+    )
+    if not max(lower, upper) > _ROUNDING * ring:
+        return np.nan
+    return float(min(lower, upper) / max(lower, upper))
+
+
+def _radial(surface: np.ndarray) -> tuple[np.ndarray, float]:
+    """Displacement from the radius of the rings, and that radius, m."""
+    radius = np.hypot(surface[0], surface[1])
+    ring = float(0.5 * (radius[0].mean() + radius[-1].mean()))
+    return radius - ring, ring
 
 
 def alternation(displacement: np.ndarray) -> float:

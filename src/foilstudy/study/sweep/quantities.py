@@ -110,6 +110,9 @@ QUANTITIES: dict[str, Declared] = {
     "broad_wave_share": Declared(
         "1", "share of the radial displacement that bulges or sways the cylinder as a whole"
     ),
+    "calmer_half": Declared(
+        "1", "radial displacement of the calmer half of the height over that of the other, RMS"
+    ),
     "alternation": Declared("1", "opposition of the twists of neighbouring elements"),
     "verdict": Declared("1", "what the numbers of the realisation say of it, a bit each"),
     "mode_count": Declared(
