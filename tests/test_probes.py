@@ -130,10 +130,9 @@ def test_a_displacement_probe_tends_to_the_tangent_at_second_order(small, stress
     assert ((3.5 < errors[1] / errors[0]) & (errors[1] / errors[0] < 4.5)).all()
 
 
-@pytest.mark.parametrize("others", ["held", "free"])
-def test_a_force_probe_tends_to_the_tangent_at_first_order(small, others):
-    tangent = Tangent(others=others).of(small).stiffness
-    errors = [ForceProbe(force, others).of(small).stiffness - tangent for force in (0.2, 0.4)]
+def test_a_force_probe_tends_to_the_tangent_at_first_order(small):
+    tangent = Tangent(others="free").of(small).stiffness
+    errors = [ForceProbe(force, "free").of(small).stiffness - tangent for force in (0.2, 0.4)]
     assert (np.abs(errors[0]) < 1e-3 * tangent).all()
     assert errors[1][0] / errors[0][0] == pytest.approx(2, rel=0.1)
 

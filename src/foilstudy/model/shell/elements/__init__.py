@@ -1,25 +1,43 @@
 """Strain and quadrature variants of the shell element: one protocol, one file per family."""
 
+from dataclasses import dataclass
+
 from foilstudy.base.registry import Choice, Registry
+
+
+@dataclass(frozen=True)
+class ElementChoice(Choice):
+    """An element.
+
+    Attributes
+    ----------
+    fails : bool
+        Whether it is there to be seen failing, and for nothing else.
+    """
+
+    fails: bool = False
+
 
 ELEMENTS = Registry(
     "element",
     {
-        "corner": Choice(
+        "corner": ElementChoice(
             "model.shell.elements.corner:Corner",
             "strains where folds do not stretch the element",
         ),
-        "one_point": Choice(
+        "one_point": ElementChoice(
             "model.shell.elements.one_point:OnePoint",
             "strains in its middle, much too stiff at unresolved ridges, as in the published work",
         ),
-        "uncontrolled": Choice(
+        "uncontrolled": ElementChoice(
             "model.shell.elements.uncontrolled:Uncontrolled",
             "one strain point and nothing else, which hourglasses; to see how it fails",
+            fails=True,
         ),
-        "full": Choice(
+        "full": ElementChoice(
             "model.shell.elements.full:Full",
             "full integration, which locks, and slow; to see how it fails",
+            fails=True,
         ),
     },
 )
@@ -41,4 +59,4 @@ LESSER_MODELS = Registry(
 )
 """In place of an element: models that leave something out, to see what that does to a crumple."""
 
-__all__ = ["ELEMENTS", "LESSER_MODELS"]
+__all__ = ["ELEMENTS", "LESSER_MODELS", "ElementChoice"]
