@@ -40,7 +40,10 @@ REGISTRIES = {
     "export format": "export.formats",
 }
 """By kind, the modules that hold them."""
-NOT_IN_TASKS = {"stiffness measure": "pipeline.measures"}
+NOT_IN_TASKS = {
+    "stiffness measure": "pipeline.measures",
+    "lesser model": "model.shell.elements",
+}
 """The same of what no configuration chooses from."""
 ANOTHER = {
     "solve.choices": "solve.another",

@@ -22,7 +22,7 @@ from foilstudy.measure.dynamics import DynamicsOptions
 from foilstudy.model.imperfections import IMPERFECTIONS
 from foilstudy.model.materials import MATERIALS, material
 from foilstudy.model.patch import knot_points, refine
-from foilstudy.model.shell.elements import ELEMENTS
+from foilstudy.model.shell.elements import ELEMENTS, LESSER_MODELS
 from foilstudy.model.shell.material import LAWS
 from foilstudy.model.shell.material.elastic import Elastic
 from foilstudy.pipeline.crumple import uncrumpled
@@ -194,7 +194,7 @@ def test_a_record_of_another_release_is_refused():
 @pytest.mark.parametrize(
     "registry",
     [ELEMENTS, LAWS, IMPERFECTIONS, MASSES, DAMPINGS, SEARCHES, PATHS, STRESS_REMOVALS,
-     REDUCTIONS, STRUCTURAL_DAMPINGS, STIFFNESS_MEASURES],
+     REDUCTIONS, STRUCTURAL_DAMPINGS, STIFFNESS_MEASURES, LESSER_MODELS],
     ids=lambda registry: registry.kind,
 )  # fmt: skip
 def test_every_choice_can_be_loaded_and_knows_its_name(registry):

@@ -28,10 +28,15 @@ def imperfect_cylinder(patch: Patch, foil: Foil, imperfection: Imperfection) -> 
     ValueError
         If there is no such imperfection, or the mesh cannot follow it.
     """
+    return cylinder_control_points(patch, foil.diameter) + deviation(patch, foil, imperfection)
+
+
+def deviation(patch: Patch, foil: Foil, imperfection: Imperfection) -> np.ndarray:
+    """What an imperfection adds to the perfect cylinder, shape (3, rows, columns), m."""
     key = np.random.SeedSequence(list(imperfection.stream(foil)))
     rng = np.random.Generator(np.random.PCG64(key))
-    deviation = np.zeros(patch.shape)
-    deviation[:] = IMPERFECTIONS[imperfection.kind](patch, foil, imperfection, rng)
-    deviation[:, :RING_ROWS] = 0.0
-    deviation[:, -RING_ROWS:] = 0.0
-    return cylinder_control_points(patch, foil.diameter) + imperfection.amplitude * deviation
+    unit = np.zeros(patch.shape)
+    unit[:] = IMPERFECTIONS[imperfection.kind](patch, foil, imperfection, rng)
+    unit[:, :RING_ROWS] = 0.0
+    unit[:, -RING_ROWS:] = 0.0
+    return imperfection.amplitude * unit

@@ -22,7 +22,7 @@ class MeasuredStiffness:
     stiffness : ndarray, shape (2,)
         Axial and radial, N/m; NaN where the measure has none.
     message : str
-        Why, in one sentence; empty where it has both.
+        Why it has none, or what speaks against those that it has; else empty.
     levels : tuple of ndarray
         By the sizes of a probe in turn, the last of which is the stiffness; empty for others.
     """

@@ -10,7 +10,7 @@ from foilstudy.base.ranges import require_number
 from foilstudy.linalg import SolveError
 from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.measures import MeasuredStiffness
-from foilstudy.pipeline.measures.others import combined, require_others
+from foilstudy.pipeline.measures.probing import combined, doubt, in_words, require_others
 from foilstudy.solve.equilibrium.guided import Guide, guided, untouched
 from foilstudy.solve.problem import Problem
 
@@ -55,7 +55,7 @@ class DisplacementProbe:
             except SolveError as error:
                 reasons.append(str(error))
         levels = tuple(combined(each, self.others) for each in along)
-        return MeasuredStiffness(levels[-1], "; ".join(dict.fromkeys(reasons)), levels)
+        return MeasuredStiffness(levels[-1], in_words(reasons), levels)
 
     def _along(
         self, problem: Problem, points: np.ndarray, axis: int, reasons: list[str]
@@ -77,6 +77,7 @@ class DisplacementProbe:
                         f"{'xyz'[axis]}: {found.message}"
                     )
                     return stiffness
+                reasons.append(doubt(rest, found, axis))
                 ends[end] = found
             ahead, behind = (end.pull[1, axis] for end in ends)
             stiffness[level] = (ahead - behind) / (2 * size)

@@ -10,8 +10,8 @@ from foilstudy.base.ranges import require_number
 from foilstudy.linalg import SolveError
 from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.measures import MeasuredStiffness
-from foilstudy.pipeline.measures.others import combined, require_others
-from foilstudy.solve.equilibrium.guided import Guide, guided
+from foilstudy.pipeline.measures.probing import combined, doubt, in_words, require_others
+from foilstudy.solve.equilibrium.guided import Guide, guided, untouched
 from foilstudy.solve.problem import Problem
 
 
@@ -41,6 +41,7 @@ class ForceProbe:
     def of(self, crumpled: Crumpled) -> MeasuredStiffness:
         """See `StiffnessMeasure`."""
         problem = Problem(crumpled.relieved())
+        rest = untouched(problem, crumpled.points)
         along, reasons = np.full(3, np.nan), []
         for axis in range(3):
             force = np.zeros(6)
@@ -53,8 +54,9 @@ class ForceProbe:
                 continue
             if found.status == "converged":
                 along[axis] = self.force / found.motion[axis]
+                reasons.append(doubt(rest, found, axis))
             else:
                 reasons.append(
                     f"no equilibrium with {self.force:g} N along {'xyz'[axis]}: {found.message}"
                 )
-        return MeasuredStiffness(combined(along, self.others), "; ".join(dict.fromkeys(reasons)))
+        return MeasuredStiffness(combined(along, self.others), in_words(reasons))

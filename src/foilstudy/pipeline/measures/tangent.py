@@ -11,7 +11,7 @@ from foilstudy.measure.stiffness import fixed_stiffness, free_stiffness
 from foilstudy.measure.stiffness.condensation import condense
 from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.measures import MeasuredStiffness
-from foilstudy.pipeline.measures.others import require_others
+from foilstudy.pipeline.measures.probing import require_others
 from foilstudy.pipeline.structures import prestressed_stiffness, stress_free_stiffness
 
 

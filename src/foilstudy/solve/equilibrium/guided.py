@@ -120,11 +120,9 @@ class GuidedSheet:
         motion, guide = self.motion(q), self._guide
         energies = self._problem.force(self.points(q), self._force)
         top = self._force[:, _TOP].reshape(3, -1)
-        rings = (
-            np.linalg.norm(self._force[:, :RING_ROWS]),
-            max(np.linalg.norm(top), np.linalg.norm(guide.force[:3])),
-        )
-        self._scale = float(np.hypot(*rings))
+        bottom, load = self._force[:, :RING_ROWS], guide.force[:3]
+        above = max(np.linalg.norm(top), np.linalg.norm(load))
+        self._scale = float(np.hypot(np.linalg.norm(bottom), above))
         self._at = q.copy()
         turning = np.einsum("kij,ij->k", _rotation(motion[3:])[1], top @ self._arms.T)
         on_ring = np.concatenate([top.sum(axis=1), turning]) - guide.force
@@ -155,7 +153,7 @@ class GuidedSheet:
         return reduced.tocsr()
 
     def scale(self, q: np.ndarray) -> float:
-        """Norm of the forces on the rings, N: the scale of residuals."""
+        """Norm of the forces on the rings, or of the load, N: the scale of residuals."""
         if self._at is None or not np.array_equal(self._at, q):
             self.value_and_gradient(q)
         return self._scale

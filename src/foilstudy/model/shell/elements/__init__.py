@@ -26,5 +26,21 @@ ELEMENTS = Registry(
     },
 )
 """Elements by the name a configuration gives them; those to be used have a vectorised kernel."""
+LESSER_MODELS = Registry(
+    "lesser model",
+    {
+        "tension_field": Choice(
+            "model.shell.elements.tension_field:TensionField",
+            "a membrane that wrinkles at no cost and does not bend: has neither ridges nor, where "
+            "it is slack, a stiffness",
+        ),
+        "mass_spring": Choice(
+            "model.shell.elements.mass_spring:MassSpring",
+            "springs and hinges on triangles, whose Poisson's ratio is 1/3 in plane and -1/3 in "
+            "bending",
+        ),
+    },
+)
+"""In place of an element: models that leave something out, to see what that does to a crumple."""
 
-__all__ = ["ELEMENTS"]
+__all__ = ["ELEMENTS", "LESSER_MODELS"]
