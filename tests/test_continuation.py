@@ -3,18 +3,33 @@
 import numpy as np
 import pytest
 import scipy.sparse as sparse
+from scipy.fft import dctn
 from scipy.optimize import brentq
 from scipy.special import ellipk
 from test_newton import Column, Truss
 
 from foilstudy.model.materials import Material
-from foilstudy.model.patch import Patch, fitted_control_points
+from foilstudy.model.patch import Patch, fitted_control_points, knot_points
 from foilstudy.model.shell.shell import Shell
-from foilstudy.model.supports.edges import SIMPLY_SUPPORTED, clamped, constraints, symmetric
-from foilstudy.model.supports.loads import point_load
+from foilstudy.model.supports.edges import (
+    SIMPLY_SUPPORTED,
+    Constraints,
+    PointHold,
+    clamped,
+    constraints,
+    edge_offset,
+    symmetric,
+)
+from foilstudy.model.supports.interpolation import as_vector
+from foilstudy.model.supports.loads import edge_load, point_load
 from foilstudy.solve.continuation import ArcSteps, FactorSteps, March, Switching, follow
 from foilstudy.solve.loading.growing_load import GrowingLoad
 from foilstudy.solve.loading.loaded_sheet import LoadedSheet
+from foilstudy.study.verification.theory_cylinder import (
+    Cylinder,
+    buckling_strain,
+    classical_buckling_stress,
+)
 
 SURFACES = ("sphere", "cylinder", "plane")
 
@@ -229,7 +244,7 @@ def fall_of_an_arch(elements):
     ends = {"bottom": clamped(patch, points, "bottom"), "top": SIMPLY_SUPPORTED}
     load = point_load(patch, points, (width / 2, length / 2), np.array([0, 0, -20 / radius**2]))
     loaded = LoadedSheet(sheet, constraints(patch, sides | ends), load)
-    march = March(first=0.02, longest=15, budget=400)
+    march = March(first=0.04, longest=12, budget=400)
     path = follow(
         GrowingLoad(loaded),
         np.zeros(loaded.constraints.free),
@@ -245,3 +260,68 @@ def test_a_deep_arch_falls_over_at_its_published_load():
     """8.97 (D. A. DaDeppo, R. Schmidt, Journal of Applied Mechanics 42 (1975) 923-926)."""
     coarse, fine = fall_of_an_arch(32), fall_of_an_arch(64)
     assert fine + (fine - coarse) / 3 == pytest.approx(8.97, rel=0.01)
+
+
+# --- axially compressed cylinder -----------------------------------------------------------------
+
+SHORT_CYLINDER = Cylinder(0.1, 0.1, 3e-3, Material(650e6, 0.3, 1.0, 1.0))
+
+
+def half_cylinder(along, around):
+    """Between planes of symmetry; its edges stay plane, expand freely and are pressed together.
+
+    The load factor is over the classical load.
+    """
+    radius, length = SHORT_CYLINDER.radius, SHORT_CYLINDER.length
+    patch = Patch(around, along, np.pi * radius / around, length / along, periodic=False)
+    points = fitted_control_points(
+        patch,
+        lambda s, z: np.stack([radius * np.cos(s / radius), radius * np.sin(s / radius), z]),
+    )
+    edges = {
+        "bottom": symmetric(2),
+        "top": symmetric(2),
+        "left": symmetric(1),
+        "right": symmetric(1),
+    }
+    held = constraints(patch, edges, [PointHold((0.5 * np.pi * radius, 0.0), 0)])
+    lift = as_vector(edge_offset(patch, points, "top", lambda x: x + np.array([0, 0, 1.0])))
+    free = sparse.hstack([held.matrix, lift[:, None] / np.linalg.norm(lift)]).tocsr()
+    line = classical_buckling_stress(SHORT_CYLINDER) * SHORT_CYLINDER.thickness
+    load = edge_load(patch, points, "top", np.array([0, 0, -line]))
+    sheet = Shell.elastic(patch, points, SHORT_CYLINDER.material, SHORT_CYLINDER.thickness)
+    return LoadedSheet(sheet, Constraints(patch, free), load)
+
+
+def test_a_cylinder_buckles_into_the_mode_and_at_the_load_of_theory_and_its_load_drops():
+    loaded = half_cylinder(12, 36)
+    march = March(target=1.3, first=0.2, longest=2, budget=200)
+    path = follow(
+        GrowingLoad(loaded),
+        np.zeros(loaded.constraints.free),
+        ArcSteps(switching=Switching()),
+        march,
+        stop=lambda point: point.branch > 0 and point.factor < 0.6,
+    )
+    assert path.status == "converged", path.message
+    modes = {
+        (m, n): SHORT_CYLINDER.material.youngs_modulus
+        * buckling_strain(SHORT_CYLINDER, m, n)
+        / classical_buckling_stress(SHORT_CYLINDER)
+        for m in range(1, 6)
+        for n in range(12)
+    }
+    lowest = min(modes, key=modes.get)
+    branch = [point for point in path.points if point.branch]
+    straight = [point for point in path.points if not point.branch]
+    assert not any(point.negative_eigenvalues for point in straight)
+    assert branch[0].factor == pytest.approx(modes[lowest], rel=0.01)
+    assert all(point.negative_eigenvalues for point in branch)  # at the load; it snaps
+    factors = [point.factor for point in branch]
+    assert (np.diff(factors) < 0).all() and factors[-1] < 0.65 * modes[lowest]
+    for point in branch:
+        surface = knot_points(loaded.points(point.q), periodic=False)
+        radius = np.hypot(surface[0], surface[1])
+        waves = np.abs(dctn(radius - radius.mean(), type=1))
+        along, around = np.unravel_index(waves.argmax(), waves.shape)
+        assert along == lowest[0] and abs(around - lowest[1]) <= 1

@@ -35,6 +35,18 @@ PATHS = Registry(
         "relaxation": Choice(
             "solve.paths.relaxation:RelaxationPath",
             "the top ring closes the gap in a ramp while the sheet relaxes, then it settles",
-        )
+        ),
+        "newton": Choice(
+            "solve.paths.newton:NewtonPath",
+            "equilibria at growing displacement by plain Newton; ends at the first buckling",
+        ),
+        "arc_length": Choice(
+            "solve.paths.arc_length:ArcLengthPath",
+            "equilibria along the arc length (Riks, Crisfield); a few per cent of the way",
+        ),
+        "branch_switching": Choice(
+            "solve.paths.branch_switching:BranchSwitchingPath",
+            "the same, onto the branch of the lowest mode at bifurcations",
+        ),
     },
 )

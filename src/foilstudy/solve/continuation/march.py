@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from foilstudy.solve.continuation.branches import before_singular, branch_off
+from foilstudy.solve.continuation.branches import branch_off, singular_between
 from foilstudy.solve.continuation.constraints import Increment, Metric, at_factor
 from foilstudy.solve.continuation.corrector import Corrected, Correction, correct
 from foilstudy.solve.continuation.equations import Equations
@@ -44,7 +44,7 @@ class March:
     target: float = 1.0
     first: float = 0.02
     longest: float = 8.0
-    shortest: float = 1e-6
+    shortest: float = 1e-4
     budget: int = 1000
     wanted_iterations: int = 4
     correction: Correction = field(default_factory=Correction)
@@ -200,8 +200,8 @@ class _Walk:
         if self._turned(here, there):
             return there
         switching, length = self._rule.switching, self._metric.length(here.to(there.found))
-        before = before_singular(self.step, here, length, switching.bisections)
-        off = branch_off(self._workshop, before, length, switching, self._march.correction)
+        bracket = singular_between(self.step, here, there, length, switching.bisections)
+        off = branch_off(self._workshop, bracket, length, switching, self._march.correction)
         if off is None:
             return there
         self._branch += 1

@@ -6,9 +6,7 @@ import numpy as np
 import scipy.sparse as sparse
 
 from foilstudy.solve.loading.loaded_sheet import LoadedSheet
-
-_ROUNDING = 5.0
-"""Residual that counts as zero, relative to what rounding leaves of a known zero."""
+from foilstudy.solve.residual import least_scale
 
 
 class GrowingLoad:
@@ -29,7 +27,7 @@ class GrowingLoad:
 
     def __init__(self, loaded: LoadedSheet, residual_tolerance: float = 1e-8):
         self.loaded = loaded
-        self._floor = _ROUNDING * loaded.rounding() / residual_tolerance
+        self._floor = least_scale(loaded.sheet, residual_tolerance)
 
     def residual(self, q: np.ndarray, factor: float) -> np.ndarray:
         """See `Equations`."""
