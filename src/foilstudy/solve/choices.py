@@ -48,5 +48,9 @@ PATHS = Registry(
             "solve.paths.branch_switching:BranchSwitchingPath",
             "the same, onto the branch of the lowest mode at bifurcations",
         ),
+        "minimisation": Choice(
+            "solve.paths.minimisation:MinimisationPath",
+            "stable equilibria at growing displacement, snaps along the lowest mode; slow",
+        ),
     },
 )

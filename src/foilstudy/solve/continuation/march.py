@@ -152,6 +152,7 @@ class _Walk:
                 found.q,
                 found.residual,
                 found.iterations,
+                self._workshop.spent,
                 self._branch,
                 place.leapt,
             )

@@ -25,6 +25,13 @@ class PushedSheet:
         m.
     residual_tolerance : float
         To which the equilibria will be asked for, see `least_scale`.
+
+    Attributes
+    ----------
+    motion : ndarray, shape (3, rows, columns)
+        Of all control points at a factor of one, m.
+    size : int
+        Number of unknowns.
     """
 
     def __init__(self, problem: Problem, shortening: float, residual_tolerance: float = 1e-8):
@@ -33,17 +40,17 @@ class PushedSheet:
         rows = problem.patch.rows
         share = np.clip((np.arange(rows) - 0.5) / (rows - 2), 0.0, 1.0)
         share[:RING_ROWS], share[-RING_ROWS:] = 0.0, 1.0
-        self._motion = np.zeros_like(problem.reference)
-        self._motion[2] = -shortening * share[:, None]
+        self.motion = np.zeros_like(problem.reference)
+        self.motion[2] = -shortening * share[:, None]
         owned = RING_ROWS * 3 * problem.patch.columns
         self._free = slice(owned, -owned)
-        self.size = self._motion.size - 2 * owned
+        self.size = self.motion.size - 2 * owned
 
     def points(self, q: np.ndarray, factor: float) -> np.ndarray:
         """Control points, shape (3, rows, columns), m."""
-        moved = np.zeros(self._motion.size)
+        moved = np.zeros(self.motion.size)
         moved[self._free] = q
-        base = self._problem.reference + factor * self._motion
+        base = self._problem.reference + factor * self.motion
         return base + as_field(moved, self._problem.patch)
 
     def residual(self, q: np.ndarray, factor: float) -> np.ndarray:
@@ -53,7 +60,7 @@ class PushedSheet:
     def linearised(self, q: np.ndarray, factor: float) -> tuple[sparse.csr_matrix, np.ndarray]:
         """See `Equations`."""
         rows = self._problem.tangent(self.points(q, factor))[self._free]
-        return rows[:, self._free].tocsr(), rows @ as_vector(self._motion)
+        return rows[:, self._free].tocsr(), rows @ as_vector(self.motion)
 
     def scale(self, q: np.ndarray, factor: float) -> float:
         """Norm of the force on the rings, N, or of what lets rounding pass."""

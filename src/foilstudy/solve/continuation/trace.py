@@ -24,6 +24,8 @@ class Point:
         Relative.
     iterations : int
         Corrections that it took.
+    factorisations : int
+        Spent until it was reached, from the start of the path.
     branch : int
         How many branches have been switched on the way.
     leapt : bool
@@ -36,6 +38,7 @@ class Point:
     q: np.ndarray
     residual: float
     iterations: int
+    factorisations: int
     branch: int = 0
     leapt: bool = False
 
@@ -66,7 +69,12 @@ class Trace:
     @property
     def farthest(self) -> float:
         """Largest factor reached; zero where there is no point."""
-        return max((point.factor for point in self.points), default=0.0)
+        return self.within(self.factorisations)
+
+    def within(self, factorisations: int) -> float:
+        """Largest factor reached with so many factorisations."""
+        reached = (p.factor for p in self.points if p.factorisations <= factorisations)
+        return max(reached, default=0.0)
 
     def __repr__(self) -> str:
         return f"<Trace: {self.status}, {self.message}>"

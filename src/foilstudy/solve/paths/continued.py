@@ -1,34 +1,27 @@
-"""What paths by continuation have in common: from a trace of equilibria to an arrival.
-
-They follow equilibria of the sheet whose rings are moved together, so that they are static all the
-way; where such a path ends before the gap is closed, so does the crumple.
-"""
+"""What paths by continuation have in common: from a trace of equilibria to an arrival."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
-from typing import ClassVar, Self
+from dataclasses import dataclass
 
 import numpy as np
 
 from foilstudy.base.costs import Cost, measured
-from foilstudy.base.errors import Refusal
-from foilstudy.model.patch import RING_ROWS
 from foilstudy.solve.continuation import Correction, March, Rule, Trace, follow
 from foilstudy.solve.continuation.pushed_sheet import PushedSheet
-from foilstudy.solve.equilibrium.settle import SettleOptions, settle
 from foilstudy.solve.paths import Arrival
+from foilstudy.solve.paths.static import StaticPath, static_history
 from foilstudy.solve.problem import Problem
-from foilstudy.solve.relaxation.loop import History
-from foilstudy.solve.relaxation.scheme import Scheme
 
 
 @dataclass(frozen=True)
-class ContinuedPath:
+class ContinuedPath(StaticPath):
     """A `Path` by continuation; a strategy gives its rule of stepping.
 
     Attributes
     ----------
+    settling : SettleOptions
+        See `StaticPath`.
     first_step : float
         Share of the shortening in the first step. The published foil of 500 um buckles at 0.003
         to 0.01.
@@ -36,41 +29,18 @@ class ContinuedPath:
         Bound of a step, over the first one.
     budget : int
         Factorisations at most.
-    settling : SettleOptions
-        Its tolerance is that of the path; a shape from elsewhere is minimised by it, without
-        relaxation.
     """
 
-    kind: ClassVar[str]
     first_step: float = 0.002
     longest_step: float = 20.0
     budget: int = 1000
-    settling: SettleOptions = field(default_factory=SettleOptions)
-
-    @classmethod
-    def for_study(
-        cls, ramp_steps: int, scheme: Scheme, settling: SettleOptions, check_interval: int
-    ) -> Self:
-        """See `Path`."""
-        return cls(settling=settling)
 
     def rule(self) -> Rule:
         """How the path steps."""
         raise NotImplementedError
 
-    def follow(self, problem: Problem, shortening: float) -> Arrival:
-        """See `Path`.
-
-        Raises
-        ------
-        Refusal
-            If the problem has a memory, of which a path of equilibria knows nothing.
-        """
-        if problem.has_memory:
-            raise Refusal(
-                f"method.path: {self.kind} follows elastic equilibria and would lose the memory of "
-                "the material; use relaxation."
-            )
+    def pushed(self, problem: Problem, shortening: float) -> Arrival:
+        """See `StaticPath`."""
         tolerance = self.settling.residual_tolerance
         sheet = PushedSheet(problem, shortening, tolerance)
         march = March(
@@ -83,25 +53,6 @@ class ContinuedPath:
             trace = follow(sheet, np.zeros(sheet.size), self.rule(), march)
         return _arrived(problem, sheet, trace, cost)
 
-    def push(self, problem: Problem, shortening: float) -> Arrival:
-        """See `Path`: nothing is near an equilibrium that is none, so this is `follow`."""
-        return self.follow(problem, shortening)
-
-    def relax(self, problem: Problem, points: np.ndarray) -> Arrival:
-        """See `Path`: there is no motion, so this is `settle`."""
-        return self.settle(problem, points)
-
-    def settle(self, problem: Problem, points: np.ndarray) -> Arrival:
-        """See `Path`."""
-        options = replace(self.settling, relaxation_steps_max=0)
-        with measured() as cost:
-            settled = settle(problem, Scheme().start(problem), points, options)
-        return Arrival(
-            settled.status, settled.message, settled.points, settled.residual,
-            settled.negative_eigenvalues, 0, settled.newton_steps, settled.hessians, None,
-            {"settling": cost},
-        )  # fmt: skip
-
 
 def _arrived(problem: Problem, sheet: PushedSheet, trace: Trace, cost: Cost) -> Arrival:
     if not trace.points:
@@ -112,10 +63,12 @@ def _arrived(problem: Problem, sheet: PushedSheet, trace: Trace, cost: Cost) -> 
     last = trace.points[-1]
     status, words = _outcome(trace)
     corrections = sum(point.iterations for point in trace.points)
+    shapes = [sheet.points(point.q, point.factor) for point in trace.points]
+    history = static_history(problem, shapes, [point.residual for point in trace.points])
     return Arrival(
-        status, words, sheet.points(last.q, last.factor), last.residual,
-        last.negative_eigenvalues, len(trace.points) - 1, corrections, trace.factorisations,
-        _history(problem, sheet, trace), {"continuation": cost},
+        status, words, shapes[-1], last.residual, last.negative_eigenvalues,
+        len(trace.points) - 1, corrections, trace.factorisations, history,
+        {"continuation": cost},
     )  # fmt: skip
 
 
@@ -132,17 +85,3 @@ def _outcome(trace: Trace) -> tuple[str, str]:
         count = last.negative_eigenvalues
         return "not_converged", f"an unstable equilibrium, {count} negative eigenvalues: {how}"
     return "converged", how
-
-
-def _history(problem: Problem, sheet: PushedSheet, trace: Trace) -> History:
-    """The equilibria one after the other; nothing moves."""
-    shapes = [sheet.points(point.q, point.factor) for point in trace.points]
-    energies = np.array([problem.force(shape, np.empty_like(shape)) for shape in shapes])
-    return History(
-        np.arange(len(shapes)),
-        np.array([shape[2, -RING_ROWS:].mean() for shape in shapes]),
-        np.array([point.force for point in trace.points]),
-        dict(zip(problem.energy_names, energies.T, strict=True)),
-        np.zeros(len(shapes)),
-        np.array([point.residual for point in trace.points]),
-    )
