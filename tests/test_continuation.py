@@ -8,6 +8,7 @@ from scipy.optimize import brentq
 from scipy.special import ellipk
 from test_newton import Column, Truss
 
+from foilstudy.linalg import factorise
 from foilstudy.model.materials import Material
 from foilstudy.model.patch import Patch, fitted_control_points, knot_points
 from foilstudy.model.shell.shell import Shell
@@ -23,6 +24,8 @@ from foilstudy.model.supports.edges import (
 from foilstudy.model.supports.interpolation import as_vector
 from foilstudy.model.supports.loads import edge_load, point_load
 from foilstudy.solve.continuation import ArcSteps, FactorSteps, March, Switching, follow
+from foilstudy.solve.continuation.branches import unstable_mode
+from foilstudy.solve.continuation.linearised import Tangent
 from foilstudy.solve.loading.growing_load import GrowingLoad
 from foilstudy.solve.loading.loaded_sheet import LoadedSheet
 from foilstudy.study.verification.theory_cylinder import (
@@ -170,6 +173,15 @@ def test_without_switching_the_column_stays_straight_and_its_instability_is_coun
     counts = [point.negative_eigenvalues for point in path.points]
     assert counts == [int(point.factor > buckling_load(20)) for point in path.points]
     assert 0 in counts and 1 in counts and not any(point.q[1:].any() for point in path.points)
+
+
+def test_the_mode_that_turned_unstable_is_told_from_a_softer_one_that_never_does():
+    stiffness = np.append([1e-4, -1e-2, -1.0], np.arange(1.0, 30.0))
+    matrix = sparse.diags(stiffness, format="csr")
+    tangent = Tangent(matrix, factorise(matrix), np.zeros(stiffness.size))
+    mode = unstable_mode(tangent)
+    assert np.abs(mode).argmax() == 1
+    np.testing.assert_allclose(np.abs(mode) / np.sqrt(mode.size), np.eye(mode.size)[1], atol=1e-6)
 
 
 # --- shells --------------------------------------------------------------------------------------

@@ -109,7 +109,7 @@ def test_long_newton_steps_pass_bifurcations_unseen_and_the_arrival_is_called_un
 def test_a_way_minimises_a_shape_from_elsewhere():
     foil = replace(FOIL, gap_height=FOIL.reference_height - 1e-4)
     problem = uncrumpled(foil, COARSE).problem()
-    path = PATHS["arc_length"].for_study(100, Scheme(), SettleOptions(), 20)
+    path = PATHS["arc_length"](first_step=0.2)
     arrival = path.follow(problem, foil.shortening)
     rng = np.random.default_rng(2)
     shaken = arrival.points.copy()
@@ -117,6 +117,13 @@ def test_a_way_minimises_a_shape_from_elsewhere():
     back = path.relax(problem, shaken)
     assert back.status == "converged", back.message
     np.testing.assert_allclose(back.points, arrival.points, atol=1e-9)
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_a_study_gives_a_way_its_tolerance(way):
+    settling = SettleOptions(residual_tolerance=1e-6)
+    path = PATHS[way].for_study(100, Scheme(), settling, 20)
+    assert path == PATHS[way](settling=settling) and path.kind == way
 
 
 def test_a_memory_is_refused_in_one_sentence():
