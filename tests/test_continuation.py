@@ -184,6 +184,12 @@ def test_the_mode_that_turned_unstable_is_told_from_a_softer_one_that_never_does
     np.testing.assert_allclose(np.abs(mode) / np.sqrt(mode.size), np.eye(mode.size)[1], atol=1e-6)
 
 
+def test_an_arc_along_which_nothing_moves_is_said_to_have_no_length():
+    rigid = Pushed(lambda load: Column(20, load), lambda q: -np.sin(q) / 20)
+    path = follow(rigid, np.zeros(20), ArcSteps())
+    assert path.status == "not_converged" and "an arc has no length" in path.message
+
+
 # --- shells --------------------------------------------------------------------------------------
 
 

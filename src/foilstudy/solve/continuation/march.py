@@ -102,20 +102,19 @@ class _Walk:
             self._walk(start)
         except BudgetSpent:
             return self._trace("budget_spent", f"the {self._march.budget} factorisations are spent")
-        except _Stuck as stuck:
+        except (_Stuck, StepFailed) as stuck:
             singular = isinstance(stuck.__cause__, SingularTangent)
             return self._trace("singular" if singular else "not_converged", str(stuck))
         return self._trace("converged", "followed to its end")
 
     def _walk(self, start: np.ndarray) -> None:
         here, length = self._begin(start)
-        while not self._ended(here):
+        while here.factor < self._march.target and not self._stopped():
             there, length = self._advance(here, length)
             grown = there.negative_eigenvalues > here.negative_eigenvalues
-            if self._rule.switching and grown and not self._ended(there):
-                here = self._switched(here, there)
-            else:
-                here = there
+            if self._rule.switching and grown and there.factor < self._march.target:
+                there = self._switched(here, there)
+            here = there
             self._note(here)
 
     def _begin(self, start: np.ndarray) -> tuple[Place, float]:
@@ -124,11 +123,11 @@ class _Walk:
         try:
             found = correct(self._workshop, origin, still, at_factor(0.0), self._march.correction)
             tangent = self._workshop.tangent(found.q, found.factor)
+            self._metric = self._rule.metric(tangent.velocity)
+            onwards = Increment(tangent.velocity, 1.0)
+            first = self._rule.predictor(tangent.velocity, onwards, self._metric)
         except StepFailed as failure:
             raise _Stuck(f"there is no start at factor 0: {failure}") from failure
-        self._metric = self._rule.metric(tangent.velocity)
-        onwards = Increment(tangent.velocity, 1.0)
-        first = self._rule.predictor(tangent.velocity, onwards, self._metric)
         length = self._march.first / first.factor
         self._longest, self._shortest = (
             length * share for share in (self._march.longest, self._march.shortest)
@@ -137,9 +136,7 @@ class _Walk:
         self._note(place)
         return place, length
 
-    def _ended(self, place: Place) -> bool:
-        if place.factor >= self._march.target:
-            return True
+    def _stopped(self) -> bool:
         return self._stop is not None and self._stop(self._points[-1])
 
     def _note(self, place: Place) -> None:

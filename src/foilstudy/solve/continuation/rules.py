@@ -16,6 +16,7 @@ from foilstudy.solve.continuation.constraints import (
     on_plane,
     on_sphere,
 )
+from foilstudy.solve.continuation.linearised import StepFailed
 
 
 class Rule(Protocol):
@@ -35,6 +36,11 @@ class Rule(Protocol):
         last : Increment
             The one before, or the direction to begin with.
         metric : Metric
+
+        Raises
+        ------
+        StepFailed
+            If the path has no direction.
         """
         ...
 
@@ -131,7 +137,10 @@ class ArcSteps:
         """See `Rule`."""
         ahead = Increment(velocity, 1.0)
         side = 1.0 if metric.inner(ahead, last) >= 0 else -1.0
-        return ahead.times(side / metric.length(ahead))
+        length = metric.length(ahead)
+        if length == 0:
+            raise StepFailed("nothing moves with the factor, so that an arc has no length")
+        return ahead.times(side / length)
 
     def constraint(self, predictor: Increment, length: float, metric: Metric) -> Constraint:
         """See `Rule`."""
