@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from foilstudy.base.errors import Refusal
+from foilstudy.base.outcome import USABLE
 from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.model.imperfections.cylinder import imperfect_cylinder
 from foilstudy.pipeline.crumpled import Crumpled, Recipe
@@ -46,7 +47,7 @@ def crumple(
         return _arrived(start, path.follow(start.problem(), foil.shortening))
     crumpled = _arrived(start, path.push(start.problem(), foil.shortening))
     for finer in range(1, coarsenings + 1):
-        if crumpled.status == "diverged":
+        if crumpled.status not in USABLE:
             break
         before, crumpled = crumpled.arrival, crumpled.refined()
         relax = path.settle if finer == coarsenings else path.relax

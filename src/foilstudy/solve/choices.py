@@ -95,6 +95,30 @@ PATHS = Registry(
         "ring_alone": Choice(
             "solve.paths.ring_alone:RingAlonePath",
             "the same without spreading the ring's motion over the height, as explicit codes do",
+            caution=(
+                "in a short ramp the foil folds beside the ring instead of crumpling, without any "
+                "sign of it; use relaxation"
+            ),
+        ),
+        "newton": Choice(
+            "solve.paths.newton:NewtonPath",
+            "equilibria at growing displacement by plain Newton; ends at the first buckling",
+            caution="it ends where the cylinder buckles; use relaxation",
+        ),
+        "arc_length": Choice(
+            "solve.paths.arc_length:ArcLengthPath",
+            "equilibria along the arc length (Riks, Crisfield); a few per cent of the way",
+            caution="it spends its factorisations within a few per cent of the way; use relaxation",
+        ),
+        "branch_switching": Choice(
+            "solve.paths.branch_switching:BranchSwitchingPath",
+            "the same, onto the branch of the lowest mode at bifurcations",
+            caution="it spends its factorisations within a few per cent of the way; use relaxation",
+        ),
+        "minimisation": Choice(
+            "solve.paths.minimisation:MinimisationPath",
+            "stable equilibria at growing displacement, snaps along the lowest mode; slow",
+            caution="it takes many times as long; use relaxation",
         ),
     },
 )

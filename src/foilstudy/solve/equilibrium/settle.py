@@ -180,7 +180,7 @@ def settle(
         last = relaxed.status == "not_converged"
         most = options.hessians_last if last else options.hessians_per_round
         before, stop = points, not last and each + 1 < options.rounds_max
-        points, polished = _polish(problem, points, options, most, stop_at_saddle=stop)
+        points, polished = minimised(problem, points, options, most, stop_at_saddle=stop)
         hessians, newton_steps = hessians + polished.iterations, newton_steps + polished.steps
         at_saddle = polished.status == "saddle"
         saddles, steps_min = saddles + at_saddle, _OFF_SADDLE * at_saddle
@@ -221,14 +221,28 @@ def _committed(problem: Problem, points: np.ndarray, residual: float) -> float:
     return relative_residual(float(np.linalg.norm(gradient)), held.ring_force)
 
 
-def _polish(
+def minimised(
     problem: Problem,
     points: np.ndarray,
     options: SettleOptions,
     hessians_max: int,
-    stop_at_saddle: bool,
+    stop_at_saddle: bool = False,
 ) -> tuple[np.ndarray, NewtonResult]:
-    """Minimise the energy with the rings held; the new control points and the outcome."""
+    """Minimise the energy with the rings held; the new control points and the outcome.
+
+    Parameters
+    ----------
+    problem : Problem
+        Its state is held.
+    points : ndarray, shape (3, rows, columns)
+        Control points to start from, m.
+    options : SettleOptions
+        Search and tolerance.
+    hessians_max : int
+        Tangents formed at most.
+    stop_at_saddle : bool
+        See `NewtonOptions`.
+    """
     held = HeldSheet(problem, points)
     newton = NewtonOptions(
         residual_tolerance=options.residual_tolerance,

@@ -88,19 +88,6 @@ class LoadedSheet:
         kept = np.array([self.constraints.reduced(motion.reshape(shape)) for motion in motions.T])
         return int((np.linalg.eigvalsh(kept @ kept.T) > 1 - _FREE).sum())
 
-    def rounding(self) -> float:
-        """Norm of the force that rounding leaves on a shape without any, N.
-
-        Measured on the stress-free shape after a translation, which in exact arithmetic does
-        nothing. On a thin sheet it is far from negligible: membrane stiffness times position
-        times machine precision, beside forces of bending.
-        """
-        size = np.ptp(self.sheet.reference.reshape(3, -1), axis=1).max()
-        moved = self.sheet.reference + size * np.array([0.3, 0.7, 0.1])[:, None, None]
-        force = np.empty_like(moved)
-        self.sheet.force(moved, force)
-        return float(np.linalg.norm(force))
-
     def internal_force_size(self, q: np.ndarray) -> float:
         """Norm of the internal force on all control points, N: the scale of residuals.
 

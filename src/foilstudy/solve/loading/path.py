@@ -8,13 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from foilstudy.solve.equilibrium.newton import NewtonOptions, minimise
+from foilstudy.solve.loading.growing_load import GrowingLoad
 from foilstudy.solve.loading.loaded_sheet import LoadedSheet
 
 _RESIDUAL = 1e-8
 _ITERATIONS = 60
 _HALVINGS = 6
-_ROUNDING = 5.0
-"""Residual that counts as zero, relative to what rounding leaves of a known zero."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,16 +83,14 @@ def follow_load(
     if start is not None:
         unknowns = loaded.unknowns(start)
     reached, found, failed = 0.0, [], 0
-    floor = _ROUNDING * loaded.rounding() / _RESIDUAL
+    growing = GrowingLoad(loaded, _RESIDUAL)
     for target in factors:
         step = target - reached
         halvings = 0
         while reached != target:
             aim = target if abs(step) >= abs(target - reached) else reached + step
             problem = loaded.at(aim)
-            options = NewtonOptions(
-                _RESIDUAL, lambda q: max(loaded.internal_force_size(q), floor), _ITERATIONS
-            )
+            options = NewtonOptions(_RESIDUAL, lambda q: growing.scale(q, 0.0), _ITERATIONS)
             result = minimise(problem, unknowns, options)
             if result.status != "converged":
                 failed += result.iterations

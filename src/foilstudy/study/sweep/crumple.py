@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from foilstudy.base.costs import measured
+from foilstudy.base.outcome import USABLE
 from foilstudy.base.record import write_record
 from foilstudy.config import CrumpleTask
 from foilstudy.config.foils import foil_of
@@ -53,7 +54,7 @@ def values_of(crumpled: Crumpled) -> Values:
     """Everything that is recorded of a crumple, by the names of `QUANTITIES`; SI."""
     arrival = crumpled.arrival
     values: Values = {}
-    if arrival.status != "diverged":
+    if arrival.status in USABLE:
         values = _shape(crumpled) | _numbers(crumpled)
     return values | (_history(arrival.history, values) if arrival.history else {})
 
