@@ -107,7 +107,7 @@ VERDICTS = (
     ),
     Verdict(
         "diverged",
-        "the motion grew without bound, or the computation failed",
+        "the motion grew without bound, or the path or the computation ended before the gap",
         lambda e: e.status in ("diverged", "failed"),
         fault=True,
         cure="use the spectral mass with a safety of 1.5, or more steps of ramp",

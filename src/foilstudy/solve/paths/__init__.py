@@ -39,6 +39,10 @@ class Arrival:
         Of the stages of the path, by their names.
     state : tuple
         Of the terms of the problem at the end; empty where none has a memory.
+    reached : float
+        Share of the shortening that the path has come to.
+    budget_spent : bool
+        Whether it ended there for want of factorisations.
     """
 
     status: str
@@ -52,6 +56,8 @@ class Arrival:
     history: History | None
     costs: Mapping[str, Cost] = field(default_factory=dict)
     state: tuple[Any, ...] = ()
+    reached: float = 1.0
+    budget_spent: bool = False
 
     def after(self, earlier: Arrival) -> Arrival:
         """The same with the work and the history of what came before, on a coarser mesh say."""

@@ -68,7 +68,8 @@ def _arrived(problem: Problem, sheet: PushedSheet, trace: Trace, cost: Cost) -> 
     return Arrival(
         status, words, shapes[-1], last.residual, last.negative_eigenvalues,
         len(trace.points) - 1, corrections, trace.factorisations, history,
-        {"continuation": cost},
+        {"continuation": cost}, reached=trace.farthest,
+        budget_spent=trace.status == "budget_spent",
     )  # fmt: skip
 
 

@@ -47,15 +47,17 @@ class MinimisationPath(StaticPath):
                 results.append(result)
         last, tangents = results[-1], sum(result.iterations for result in results)
         status, message = last.status, f"{len(results)} steps, {tangents} tangents; {last.message}"
-        if status != "converged":
-            share = 100 * (len(results) - 1) / self.steps
+        arrived = status == "converged"
+        reached = 1.0 if arrived else (len(results) - 1) / self.steps
+        if not arrived:
             status = "failed"
-            message = f"the path came to {share:.3g} % of the shortening: {message}"
+            message = f"the path came to {100 * reached:.3g} % of the shortening: {message}"
         residuals = [0.0, *(result.residual for result in results)]
         return Arrival(
             status, message, shapes[-1], last.residual, last.negative_eigenvalues, len(results),
             sum(result.steps for result in results), tangents,
-            static_history(problem, shapes, residuals), {"minimisation": cost},
+            static_history(problem, shapes, residuals), {"minimisation": cost}, reached=reached,
+            budget_spent=not arrived and tangents >= self.budget,
         )  # fmt: skip
 
     def _stable(

@@ -54,7 +54,7 @@ def _trials(foils: tuple[MappedFoil, ...]) -> Iterator[Trial]:
     for one in foils:
         for name, setting in SETTINGS.items():
             if one.groups is None or setting.group in one.groups:
-                for seed in range(one.seeds):
+                for seed in range(min(one.seeds, setting.seeds or one.seeds)):
                     yield Trial(name, one.thickness_um, one.height_mm, one.size_mm, seed)
 
 

@@ -52,6 +52,8 @@ class Mapped(Section):
         A further place; one ending in ``_over_t`` counts in thicknesses of the foil.
     values : tuple
         Of that place, a row of the map each.
+    seeds : int or None
+        Where it takes long: most trials on a foil.
     """
 
     group: str
@@ -59,6 +61,7 @@ class Mapped(Section):
     set: dict[str, Value] = {}
     vary: str | None = None
     values: tuple[Value, ...] = pydantic.Field((), **_List)
+    seeds: int | None = pydantic.Field(None, ge=1)
 
 
 class Limits(Section):
@@ -79,12 +82,15 @@ class Setting:
     value : str
         Of what is varied; empty where nothing is.
     changes : tuple of (place, value)
+    seeds : int or None
+        Most trials on a foil.
     """
 
     group: str
     method: str
     value: str
     changes: tuple[tuple[str, Value], ...]
+    seeds: int | None = None
 
     @property
     def name(self) -> str:
@@ -104,10 +110,11 @@ def settings_of(limits: Limits) -> Iterator[Setting]:
     for one in limits.methods:
         fixed = tuple(one.set.items())
         if one.vary is None:
-            yield Setting(one.group, one.method, "", fixed)
+            yield Setting(one.group, one.method, "", fixed, one.seeds)
         for value in one.values:
             shown = f"{value:g}" if isinstance(value, float) else str(value)
-            yield Setting(one.group, one.method, shown, (*fixed, (one.vary, value)))
+            changes = (*fixed, (one.vary, value))
+            yield Setting(one.group, one.method, shown, changes, one.seeds)
 
 
 def read_limits(path: Path) -> Limits:

@@ -42,6 +42,7 @@ _NUMBERS = (
     "residual",
     "steps",
     "hessians",
+    "reached",
     "seconds",
 )
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from foilstudy.base.errors import Refusal
 from foilstudy.linalg import SolveError
-from foilstudy.measure.verdicts import verdicts
+from foilstudy.measure.verdicts import Evidence, verdicts
 from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.pipeline.crumple import crumple
 from foilstudy.pipeline.crumpled import Crumpled, Recipe
@@ -29,8 +29,8 @@ def measure(trial: Trial) -> dict:
     -------
     dict
         ``status``, ``message``, ``verdicts`` (names), the numbers of the evidence, ``seconds`` of
-        the processor, ``steps``, ``hessians``, ``residual``, and ``points``: the shape, empty where
-        there is none.
+        the processor, ``steps``, ``hessians``, ``residual``, ``reached`` (share of the shortening),
+        and ``points``: the shape, empty where there is none.
     """
     sheet = foil(trial.thickness_um, trial.height_mm)
     recipe = recipe_of(trial, sheet)
@@ -59,7 +59,8 @@ def _in_metres(place: str, value: Value, sheet: Foil) -> tuple[str, Value]:
 def _judged(crumpled: Crumpled) -> dict:
     arrival = crumpled.arrival
     if not np.isfinite(crumpled.points).all() or arrival.status in ("diverged", "failed"):
-        return _nothing(arrival.status, arrival.message) | _costs(crumpled)
+        nothing = _nothing(arrival.status, arrival.message, arrival.budget_spent)
+        return nothing | _costs(crumpled)
     evidence = evidence_of(crumpled, arrival.status, arrival.negative_eigenvalues)
     return {
         **asdict(evidence),
@@ -77,13 +78,15 @@ def _costs(crumpled: Crumpled) -> dict:
         "steps": arrival.steps,
         "hessians": arrival.hessians,
         "residual": arrival.residual,
+        "reached": arrival.reached,
     }
 
 
-def _nothing(status: str, message: str) -> dict:
+def _nothing(status: str, message: str, budget_spent: bool = False) -> dict:
+    evidence = Evidence(status, budget_spent=budget_spent)
     return {
         "status": status,
         "message": message,
-        "verdicts": ["diverged"],
+        "verdicts": [verdict.name for verdict in verdicts(evidence)],
         "points": np.empty(0, np.float32),
     }
