@@ -15,6 +15,7 @@ MODULES = (
     "tradeoff.plan",
     "limits.plan",
     "limits.quick",
+    "limits.measured",
 )
 """Modules of this package that define a ``STUDY``."""
 

@@ -8,6 +8,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import pydantic
 
@@ -64,12 +65,39 @@ class Mapped(Section):
     seeds: int | None = pydantic.Field(None, ge=1)
 
 
+class Way(Section):
+    """A way to measure a stiffness: a name, and an entry of ``STIFFNESS_MEASURES`` with values."""
+
+    name: str
+    measure: str
+    set: dict[str, Value | list[float]] = {}
+
+
+class MeasuredFoil(Section):
+    """A foil whose crumples are measured in every way."""
+
+    thickness_um: int
+    height_mm: int
+    size_mm: float
+    seeds: int = pydantic.Field(ge=1)
+    ramp_steps: tuple[int, ...] = pydantic.Field((), **_List)
+    """Beside the default ramp."""
+
+
+class Measures(Section):
+    """Ways to measure, and what is measured."""
+
+    foils: tuple[MeasuredFoil, ...] = pydantic.Field(**_List)
+    ways: tuple[Way, ...] = pydantic.Field(**_List)
+
+
 class Limits(Section):
     """All that is tried, in full and in the corner that takes minutes."""
 
     foils: tuple[MappedFoil, ...] = pydantic.Field(**_List)
     quick: tuple[MappedFoil, ...] = pydantic.Field(**_List)
     methods: tuple[Mapped, ...] = pydantic.Field(**_List)
+    measures: Measures
 
 
 @dataclass(frozen=True)
@@ -96,13 +124,17 @@ class Setting:
     def name(self) -> str:
         """Part of file names: in words, with a digest of the changes behind it."""
         words = _SLUG.sub("_", f"{self.method} {self.value}").strip("_")
-        content = json.dumps(self.changes).encode()
-        return f"{words}-{hashlib.sha256(content).hexdigest()[:8]}"
+        return f"{words}-{digest(self.changes)}"
 
     @property
     def words(self) -> str:
         """For people."""
         return f"{self.method}, {self.value}" if self.value else self.method
+
+
+def digest(content: Any) -> str:
+    """What tells one content from another in a file name."""
+    return hashlib.sha256(json.dumps(content).encode()).hexdigest()[:8]
 
 
 def settings_of(limits: Limits) -> Iterator[Setting]:
