@@ -77,8 +77,7 @@ def _outcome(trace: Trace) -> tuple[str, str]:
     last, spent = trace.points[-1], f"{trace.factorisations} factorisations"
     if trace.status != "converged":
         share = f"{100 * trace.farthest:.3g} % of the shortening"
-        why = "their budget was spent" if trace.status == "budget_spent" else trace.message
-        return "failed", f"the path came to {share} with {spent}: {why}"
+        return "failed", f"the path came to {share} with {spent}: {trace.reason}"
     leaps = sum(point.leapt for point in trace.points)
     how = f"relative residual {last.residual:.1e} with {spent}, {leaps} leaps to other paths"
     if last.negative_eigenvalues:
