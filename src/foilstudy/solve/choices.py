@@ -107,7 +107,7 @@ PATHS = Registry(
         ),
         "arc_length": Choice(
             "solve.paths.arc_length:ArcLengthPath",
-            "equilibria along the arc length (Riks, Crisfield); a few per cent of the way",
+            "equilibria along the arc length (Riks, Crisfield); ends after 1 to 4 % of the way",
             caution="it spends its factorisations within a few per cent of the way; use relaxation",
         ),
         "branch_switching": Choice(

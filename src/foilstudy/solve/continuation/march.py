@@ -210,10 +210,5 @@ class _Walk:
         onwards = self._rule.predictor(there.tangent.velocity, there.last, self._metric)
         return onwards.factor * here.last.factor < 0
 
-    def _trace(self, status: str, why: str) -> Trace:
-        points, spent = tuple(self._points), self._workshop.spent
-        if not points:
-            return Trace(status, why, points, spent)
-        farthest = max(point.factor for point in points)
-        message = f"{why}; {len(points)} points up to factor {farthest:.4g}"
-        return Trace(status, f"{message} with {spent} factorisations", points, spent)
+    def _trace(self, status: str, reason: str) -> Trace:
+        return Trace(status, reason, tuple(self._points), self._workshop.spent)

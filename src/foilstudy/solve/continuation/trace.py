@@ -53,8 +53,8 @@ class Trace:
         ``converged`` (the end was reached), ``budget_spent``, ``singular`` (the tangent stayed
         singular however short the step) or ``not_converged`` (the corrections did not converge
         however short the step).
-    message : str
-        One sentence on the status.
+    reason : str
+        Why it ended there.
     points : tuple of Point
         In the order of the path, the start first; empty where that is no equilibrium.
     factorisations : int
@@ -62,9 +62,19 @@ class Trace:
     """
 
     status: str
-    message: str
+    reason: str
     points: tuple[Point, ...]
     factorisations: int
+
+    @property
+    def message(self) -> str:
+        """One sentence on the status."""
+        if not self.points:
+            return self.reason
+        return (
+            f"{self.reason}; {len(self.points)} points up to factor {self.farthest:.4g} with "
+            f"{self.factorisations} factorisations"
+        )
 
     @property
     def farthest(self) -> float:

@@ -23,8 +23,8 @@ class ContinuedPath(StaticPath):
     settling : SettleOptions
         See `StaticPath`.
     first_step : float
-        Share of the shortening in the first step. The published foil of 500 um buckles at 0.003
-        to 0.01.
+        Share of the shortening in the first step. The published foil of 500 um comes to its first
+        limit point at 0.006 (on elements of 18 mm) to 0.011 (of 10 mm).
     longest_step : float
         Bound of a step, over the first one.
     budget : int
@@ -78,8 +78,7 @@ def _outcome(trace: Trace) -> tuple[str, str]:
     last, spent = trace.points[-1], f"{trace.factorisations} factorisations"
     if trace.status != "converged":
         share = f"{100 * trace.farthest:.3g} % of the shortening"
-        why = "their budget was spent" if trace.status == "budget_spent" else trace.message
-        return "failed", f"the path came to {share} with {spent}: {why}"
+        return "failed", f"the path came to {share} with {spent}: {trace.reason}"
     leaps = sum(point.leapt for point in trace.points)
     how = f"relative residual {last.residual:.1e} with {spent}, {leaps} leaps to other paths"
     if last.negative_eigenvalues:
