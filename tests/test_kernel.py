@@ -340,9 +340,13 @@ def test_the_study_of_the_page_runs_and_one_run_at_a_time_writes_it(tmp_path):
     registry = registry.replace("MODULES = (\n", 'MODULES = (\n    "plate",\n')
     (package / "study/registry.py").write_text(registry, encoding="utf-8")
 
+    # on a file system without locks
+    lockless = "import fcntl\n\ndef flock(*_):\n    raise OSError(37, 'No locks available')\n\n"
+    (package.parent / "sitecustomize.py").write_text(lockless + "fcntl.flock = flock\n")
     results = tmp_path / "results/plate"
     run = snakemake_with(package.parent, tmp_path, "-j1", "plate")
     assert run.returncode == 0, run.stderr
+    assert "results/plate: not locked (No locks available)" in run.stderr
     rows = list(csv.DictReader((results / "plate.csv").open()))
     assert [row["elements_along"] for row in rows] == ["8", "16", "32"] * 2
     errors = np.array([float(row["error"]) for row in rows]).reshape(2, 3)
@@ -351,6 +355,7 @@ def test_the_study_of_the_page_runs_and_one_run_at_a_time_writes_it(tmp_path):
     assert (results / "error.png").is_file() and (results / "costs.csv").is_file()
     assert (results / ".lock").is_file() and not (tmp_path / "results/tiny/.lock").exists()
 
+    (package.parent / "sitecustomize.py").unlink()
     with (results / ".lock").open("w") as lock:
         fcntl = pytest.importorskip("fcntl")
         fcntl.flock(lock, fcntl.LOCK_EX)
@@ -359,10 +364,3 @@ def test_the_study_of_the_page_runs_and_one_run_at_a_time_writes_it(tmp_path):
         assert run.returncode != 0
         assert "results/plate: another run is writing this study" in run.stderr
         assert snakemake_with(package.parent, tmp_path, *again, "-n").returncode == 0
-
-    # a file system without locks
-    lockless = "import fcntl\n\ndef flock(*_):\n    raise OSError(37, 'No locks available')\n\n"
-    (package.parent / "sitecustomize.py").write_text(lockless + "fcntl.flock = flock\n")
-    run = snakemake_with(package.parent, tmp_path, *again)
-    assert run.returncode == 0, run.stderr
-    assert "results/plate: not locked (No locks available)" in run.stderr
