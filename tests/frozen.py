@@ -107,4 +107,5 @@ def run(name: str, folder: Path) -> None:
 
 
 if __name__ == "__main__":
-    run(sys.argv[1], Path(sys.argv[2]))
+    for cell_name in CELLS:
+        run(cell_name, Path(sys.argv[1], cell_name))

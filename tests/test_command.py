@@ -1,6 +1,7 @@
 """The command `foilstudy`: what it says, what it refuses and with which exit code."""
 
 import importlib
+import os
 import re
 import subprocess
 import sys
@@ -10,6 +11,7 @@ import netCDF4
 import numpy as np
 import pytest
 import yaml
+from runs import run
 from synthetic import make_cube, write_cube
 from test_workflow import TINY, changed, plan
 
@@ -256,16 +258,27 @@ def test_expected_cost_grows_with_what_is_asked_for():
 # --- run -----------------------------------------------------------------------------------------
 
 
-def test_run_hands_over_to_snakemake(tmp_path):
+def test_run_hands_over_to_snakemake(tmp_path, monkeypatch):
     """From another folder, with options of Snakemake; Snakemake's exit code is the command's."""
     path = tmp_path / "study.yaml"
     path.write_text(yaml.safe_dump(changed(study={"name": "of-the-test"})), encoding="utf-8")
-    run = process("run", "study.yaml", "--cores", 3, "--dry-run", folder=tmp_path)
-    assert run.returncode == 0, run.stderr
-    assert "results/of-the-test" in run.stdout and "8 crumple" in run.stdout
+    done = process("run", "study.yaml", "--cores", 3, "--dry-run", folder=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert "results/of-the-test" in done.stdout and "8 crumple" in done.stdout
     assert not (ROOT / "results/of-the-test").exists()
-    assert process("run", path, "verify", "--dry-run").returncode == 0
-    refused = process("run", path, "--no-such-option")
+
+    def hand_over(file, words):
+        handed.append([str(file), *words[1:]])
+        sys.exit(0)
+
+    handed = []
+    monkeypatch.setattr(os, "execv", hand_over)
+    monkeypatch.chdir(tmp_path)
+    for words in (["verify", "--dry-run"], ["--no-such-option"]):
+        with pytest.raises(SystemExit):
+            main(["run", str(path), *words])
+    verified, refused = map(run, handed)
+    assert verified.returncode == 0 and "verify_present" in verified.stdout
     assert refused.returncode == 2 and "--no-such-option" in refused.stderr
 
 

@@ -26,18 +26,21 @@ def python(*words):
     subprocess.run([sys.executable, *words], check=True, env=os.environ | threads)
 
 
-def run_cell(name, folder):
-    """Every record of a frozen cell, as it is kept."""
-    python(str(Path(__file__).with_name("frozen.py")), name, str(folder))
-    return {part: frozen.frozen(*read_record(folder / f"{part}.nc")) for part in PARTS}
+@pytest.fixture(scope="module")
+def cells(tmp_path_factory):
+    """Folder with the records of every frozen cell."""
+    folder = tmp_path_factory.mktemp("cells")
+    python(str(Path(__file__).with_name("frozen.py")), str(folder))
+    return folder
 
 
 @pytest.mark.parametrize("name", frozen.CELLS)
-def test_a_cell_is_the_same_to_the_last_bit(name, tmp_path):
+def test_a_cell_is_the_same_to_the_last_bit(name, request):
     kept = frozen.read(name)
     if kept["processor"] != frozen.processor():
         pytest.skip("a crumple is chaotic, and its last bits belong to the processor it ran on")
-    now = run_cell(name, tmp_path)
+    folder = request.getfixturevalue("cells") / name
+    now = {part: frozen.frozen(*read_record(folder / f"{part}.nc")) for part in PARTS}
     for part, record in kept["records"].items():
         assert now[part]["status"] == record["status"], part
         gone = record["values"].keys() - now[part]["values"].keys()

@@ -70,12 +70,12 @@ def test_layers_that_nearly_touch_do_not_cross(gap):
     assert self_crossing_share(extruded(np.array([np.cos(t), gap * np.sin(t)]))) == 0.0
 
 
-def finger(depth, columns=80, rows=60):
+def finger(depth, columns=48, rows=19):
     """Cylinder of radius 1 with a dent pushed along -x, narrow enough to reach the far wall."""
     t = 2 * np.pi * np.arange(columns) / columns
-    surface = extruded(np.array([np.cos(t), np.sin(t)]), rows, height=4.0)
+    surface = extruded(np.array([np.cos(t), np.sin(t)]), rows, height=2.0)
     angle = (t + np.pi) % (2 * np.pi) - np.pi
-    bump = np.exp(-((angle / 0.2) ** 2) - ((surface[2] - 2.0) / 0.3) ** 2)
+    bump = np.exp(-((angle / 0.2) ** 2) - ((surface[2] - 1.0) / 0.3) ** 2)
     surface[0] -= depth * bump
     return surface
 

@@ -11,6 +11,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from runs import ROOT, SNAKEMAKE, snakemake
+from test_workflow import TINY as SWEEP
 
 from foilstudy.base.costs import Cost, measured
 from foilstudy.base.errors import ConfigError, Refusal
@@ -25,10 +27,6 @@ from foilstudy.study.kernel.files import (
 )
 from foilstudy.study.kernel.plan import DECIDING, Lazy, Part, Record, Study, case_name
 from foilstudy.study.registry import STUDIES, refuse_reserved_name
-
-ROOT = Path(__file__).parents[1]
-SNAKEMAKE = Path(sys.executable).with_name("snakemake")
-
 
 # --- names ---------------------------------------------------------------------------------------
 
@@ -299,7 +297,8 @@ def test_a_study_may_not_be_named_like_a_side_study(name):
     refuse_reserved_name("elements_of_mine")
 
 
-def snakemake(folder, *options, packages=ROOT / "src"):
+def snakemake_with(packages, folder, *options):
+    """Of another package than the one here."""
     command = [SNAKEMAKE, "--snakefile", ROOT / "Snakefile", "--directory", folder]
     command += ["--configfile", ROOT / "config/tiny.yaml", *options]
     environment = os.environ | {"PYTHONPATH": str(packages)}
@@ -309,13 +308,13 @@ def snakemake(folder, *options, packages=ROOT / "src"):
 
 
 def test_the_name_is_refused_before_any_job(tmp_path):
-    run = snakemake(tmp_path, "-n", "--config", "study={name: elements}")
+    run = snakemake(tmp_path, SWEEP, "-n", "--config", "study={name: elements}")
     assert run.returncode != 0
     assert "study.name: 'elements' is the side study" in run.stdout
 
 
 def test_workflow_plans_every_case_once(tmp_path):
-    run = snakemake(tmp_path, "-n", *STUDIES)
+    run = snakemake(tmp_path, SWEEP, "-n", *STUDIES)
     assert run.returncode == 0, run.stderr
     for study in STUDIES.values():
         for part in study.parts:
@@ -341,9 +340,13 @@ def test_the_study_of_the_page_runs_and_one_run_at_a_time_writes_it(tmp_path):
     registry = registry.replace("MODULES = (\n", 'MODULES = (\n    "plate",\n')
     (package / "study/registry.py").write_text(registry, encoding="utf-8")
 
+    # on a file system without locks
+    lockless = "import fcntl\n\ndef flock(*_):\n    raise OSError(37, 'No locks available')\n\n"
+    (package.parent / "sitecustomize.py").write_text(lockless + "fcntl.flock = flock\n")
     results = tmp_path / "results/plate"
-    run = snakemake(tmp_path, "-j1", "plate", packages=package.parent)
+    run = snakemake_with(package.parent, tmp_path, "-j1", "plate")
     assert run.returncode == 0, run.stderr
+    assert "results/plate: not locked (No locks available)" in run.stderr
     rows = list(csv.DictReader((results / "plate.csv").open()))
     assert [row["elements_along"] for row in rows] == ["8", "16", "32"] * 2
     errors = np.array([float(row["error"]) for row in rows]).reshape(2, 3)
@@ -352,18 +355,12 @@ def test_the_study_of_the_page_runs_and_one_run_at_a_time_writes_it(tmp_path):
     assert (results / "error.png").is_file() and (results / "costs.csv").is_file()
     assert (results / ".lock").is_file() and not (tmp_path / "results/tiny/.lock").exists()
 
+    (package.parent / "sitecustomize.py").unlink()
     with (results / ".lock").open("w") as lock:
         fcntl = pytest.importorskip("fcntl")
         fcntl.flock(lock, fcntl.LOCK_EX)
         again = ("-j1", "plate", "--forcerun", "plate_present")
-        run = snakemake(tmp_path, *again, packages=package.parent)
+        run = snakemake_with(package.parent, tmp_path, *again)
         assert run.returncode != 0
         assert "results/plate: another run is writing this study" in run.stderr
-        assert snakemake(tmp_path, *again, "-n", packages=package.parent).returncode == 0
-
-    # a file system without locks
-    lockless = "import fcntl\n\ndef flock(*_):\n    raise OSError(37, 'No locks available')\n\n"
-    (package.parent / "sitecustomize.py").write_text(lockless + "fcntl.flock = flock\n")
-    run = snakemake(tmp_path, *again, packages=package.parent)
-    assert run.returncode == 0, run.stderr
-    assert "results/plate: not locked (No locks available)" in run.stderr
+        assert snakemake_with(package.parent, tmp_path, *again, "-n").returncode == 0

@@ -4,6 +4,7 @@ import os
 import subprocess
 import sys
 import time
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -45,6 +46,12 @@ def said_of(call):
     return lines
 
 
+@cache
+def sentences(path):
+    """What reading a file ends in."""
+    return said_of(lambda: load_merged([path]))
+
+
 def test_there_are_enough_cases():
     assert len(CASES) >= 250
     assert len(set(CASES.values())) == len(CASES)
@@ -53,7 +60,7 @@ def test_there_are_enough_cases():
 @pytest.mark.parametrize("number", range(len(CASES)), ids=list(CASES))
 def test_a_malformed_file_is_refused_in_sentences(folder, number):
     path = folder / f"{number}.yaml"
-    lines = said_of(lambda: load_merged([path]))
+    lines = sentences(path)
     assert all(line.startswith(f"{path}: ") for line in lines)
     # and by the command in the same ones
     assert said_of(lambda: main(["check", str(path)])) == lines
@@ -71,8 +78,7 @@ def test_what_is_no_file_is_refused_in_a_sentence(folder, name):
 def test_snakemake_refuses_it_before_it_reads(folder, number, monkeypatch):
     path = folder / f"{number}.yaml"
     monkeypatch.setattr(sys, "argv", ["bin/snakemake", "-j1", "--configfile", str(path)])
-    lines = said_of(configuration.refuse_unreadable_config)
-    assert lines == said_of(lambda: load_merged([path]))
+    assert said_of(configuration.refuse_unreadable_config) == sentences(path)
 
 
 @pytest.mark.parametrize("second", ["empty", "a NUL", "a bomb of lists", "sweep is 5"])
@@ -116,4 +122,4 @@ def test_snakemake_itself_ends_in_sentences(folder, tmp_path, case):
         check=False,
     )
     assert run.returncode == 1 and not run.stdout
-    assert run.stderr.splitlines()[1:] == said_of(lambda: load_merged([path]))
+    assert run.stderr.splitlines()[1:] == sentences(path)

@@ -14,7 +14,8 @@ from synthetic import FAILED, make_cube, ten_percent, write_cube, write_study
 from foilstudy import open_cube
 from foilstudy.base.manifest import listed
 from foilstudy.command import main
-from foilstudy.present.figures import FIGURES
+from foilstudy.plot.save import save
+from foilstudy.present.figures import FIGURES, registry
 from foilstudy.present.files import StudyFiles
 from foilstudy.present.redraw import redraw
 from foilstudy.present.shown import note_origin
@@ -25,8 +26,12 @@ OF_RECORDS = [name for name, figure in FIGURES.items() if figure.needs != ("cube
 
 
 @pytest.fixture
-def folder(tmp_path):
-    """A study of which the cube alone is there; one realisation failed."""
+def folder(tmp_path, monkeypatch):
+    """A study of which the cube alone is there; one realisation failed.
+
+    Its pictures have few dots, as nobody looks at them.
+    """
+    monkeypatch.setattr(registry, "save", lambda figure, stem, _: save(figure, stem, dpi=30))
     cube = make_cube(
         (50.0, 500.0), (135.0, 170.0), seeds=2, cv=ten_percent, verdicts={(0, 0, 1): FAILED}
     )

@@ -1,12 +1,11 @@
 """Records of benchmarks: what they demand, and that tables and pages say what was computed."""
 
-import subprocess
-import sys
 from dataclasses import asdict
-from pathlib import Path
 
 import numpy as np
 import pytest
+from runs import ROOT, snakemake
+from test_workflow import TINY
 
 from foilstudy.base.costs import Cost
 from foilstudy.base.files import read_json
@@ -18,7 +17,6 @@ from foilstudy.study.verification.plan import BENCHMARKS, ELEMENT_NAMES, STUDY
 from foilstudy.study.verification.records import Benchmark, Checked, Curve, Picture, Plot
 from foilstudy.study.verification.summary import benchmarks_of, page, problems, rows, table
 
-ROOT = Path(__file__).parents[1]
 MESHES = (10, 20, 30)
 
 
@@ -113,12 +111,7 @@ def test_a_benchmark_that_misses_a_demand_is_told():
 
 
 def test_workflow_plans_one_job_per_benchmark_and_element(tmp_path):
-    snakemake = Path(sys.executable).with_name("snakemake")
-    run = subprocess.run(
-        [snakemake, "--snakefile", ROOT / "Snakefile", "--directory", tmp_path, "-n", "verify"]
-        + ["--configfile", ROOT / "config/tiny.yaml"],
-        capture_output=True, text=True, cwd=ROOT, check=False,
-    )  # fmt: skip
+    run = snakemake(tmp_path, TINY, "-n", "verify")
     assert run.returncode == 0, run.stderr
     assert (
         f"{len(ELEMENT_NAMES) * len(BENCHMARKS)} verify_benchmarks, 1 verify_present" in run.stdout

@@ -5,6 +5,7 @@ import hashlib
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import jinja2
@@ -108,7 +109,9 @@ def write_report(files: StudyFiles, out_path: Path) -> Path:
     return out_path
 
 
+@cache
 def _environment() -> jinja2.Environment:
+    """One for all pages of a process, as reading the templates takes longer than filling them."""
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(TEMPLATES),
         autoescape=True,
