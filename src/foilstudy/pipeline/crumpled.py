@@ -13,7 +13,7 @@ from foilstudy.base.outcome import USABLE
 from foilstudy.base.record import read_record
 from foilstudy.base.spec import dumped, loaded
 from foilstudy.measure.dynamics import DynamicsOptions
-from foilstudy.measure.stiffness import prestressed_stiffness
+from foilstudy.measure.stiffness import prestressed_stiffness, tangent_stiffness
 from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.model.patch import Patch
 from foilstudy.model.shell.shell import Shell
@@ -155,6 +155,19 @@ class Crumpled(Shape):
             If the tangent with held rings is singular.
         """
         return prestressed_stiffness(self.stressed, self.points)
+
+    def true_stiffness(self) -> np.ndarray:
+        """The same with all terms of the problem at their own state, shape (2,), N/m.
+
+        That of unloading where the material is plastic. Without a memory it is the pre-stressed
+        one.
+
+        Raises
+        ------
+        SolveError
+            If the tangent with held rings is singular.
+        """
+        return tangent_stiffness(self.problem().tangent(self.points), self.patch, self.points)
 
     def vibration(self, options: DynamicsOptions | None = None) -> Vibration:
         """Dynamic stiffness, eigenfrequencies and mode shapes of the stress-free shape.

@@ -50,8 +50,8 @@ class Shape:
 
     def problem(self) -> Problem:
         """The potential energy of the foil: its shell, and what its law adds to that."""
-        section = self.stressed.section
-        return Problem(self.stressed, *section.law.terms(section))
+        shell = self.stressed
+        return Problem(shell, *shell.section.law.terms(shell))
 
     def relieved(self, removal: StressRemoval | None = None) -> Shell:
         """The shell that is stress-free in this shape."""
