@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from foilstudy.model.shell.elements import mean_kernel, sampled_kernel
-from foilstudy.model.shell.elements.sampled import tables
 from foilstudy.model.shell.elements.sampling import LAW_PAIRS, StrainSampling
+from foilstudy.model.shell.elements.sampling_tables import tables
 from foilstudy.model.shell.section import Section
 
 
