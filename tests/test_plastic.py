@@ -5,10 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from conftest import FEP, FOIL, rotation
+from scipy.integrate import solve_ivp
 from wild_sheets import Foil, extrapolated, flat, unflat, wild_open_sheet, wild_shape, wild_sheet
 
+from foilstudy.measure.stiffness import transfer_stiffness
+from foilstudy.measure.stiffness.stress_removal import JohnsonCook, Reset, ZerilliArmstrong
 from foilstudy.model.foil import Imperfection
-from foilstudy.model.patch import RING_ROWS
+from foilstudy.model.patch import RING_ROWS, Patch, fitted_control_points
 from foilstudy.model.shell.elements import sampling
 from foilstudy.model.shell.elements.corner import Corner
 from foilstudy.model.shell.elements.mean_strains import SampledMeanStrains
@@ -288,3 +291,54 @@ def test_the_tangent_is_the_unloading_secant(yielded):
     problem.force(settled.points, after)
     secant = (after - before)[2, -RING_ROWS:].sum() / pull
     assert secant == pytest.approx(axial, rel=0.02)
+
+
+# --- stress removals by flow ---------------------------------------------------------------------
+
+
+def stretched_strip():
+    """A flat patch under a uniform strain of 1 %."""
+    patch = Patch(6, 6, 0.01, 0.01, periodic=False)
+    reference = fitted_control_points(patch, lambda s, z: np.stack([s, z, 0 * s]))
+    shell = Shell.elastic(patch, reference, FEP, 5e-4)
+    return shell, reference * np.array([1.01, 0.995, 1.0])[:, None, None]
+
+
+def test_uniform_strain_flows_away_in_a_held_shape():
+    shell, points = stretched_strip()
+    stressed = shell.energies(points).total
+    assert JohnsonCook().relieved(shell, points).residual_energy() < 1e-12 * stressed
+    out_of_plane = JohnsonCook().relieved(shell, points).tangent()[2::3, 2::3]
+    at_rest = Reset().relieved(shell, points).tangent()[2::3, 2::3]
+    # the same but for the stretched metric, where the stress itself counts many times more
+    assert abs(out_of_plane - at_rest).max() < 0.05 * abs(at_rest).max()
+    assert abs(shell.tangent(points)[2::3, 2::3] - at_rest).max() > abs(at_rest).max()
+
+
+def test_a_hold_that_is_too_short_leaves_all_stress():
+    crumple_at = crumpled("elastic", 12e6)
+    shell, points = crumple_at.stressed, crumple_at.points
+    short, long = JohnsonCook(hold=1e-30), JohnsonCook()
+    assert abs(short.relieved(shell, points).tangent() - shell.tangent(points)).max() == 0
+    energies = [r.relieved(shell, points).residual_energy() for r in (long, short)]
+    assert energies[1] == pytest.approx(crumple_at.energies().total, rel=1e-12)
+    assert 0 < energies[0] < 0.7 * energies[1]
+    # the two published laws come to the same residue, and neither is the exact reset
+    removals = [JohnsonCook(), ZerilliArmstrong(), Reset()]
+    values = [transfer_stiffness(crumple_at.relieved(removal)) for removal in removals]
+    assert values[0] == pytest.approx(values[1], rel=1e-4)
+    assert np.all(np.abs(values[0] / values[2] - 1) > 0.02)
+
+
+@pytest.mark.parametrize("hold", [1.0, 1e5, 1e9])
+def test_what_a_hold_leaves(hold):
+    """Against the differential equation of the stress at held strain, from 30 MPa."""
+    law, modulus = JohnsonCook(), 650e6
+
+    def rate(time, stress):
+        excess = (stress / law.yield_stress - 1) / law.rate_coefficient
+        return np.where(excess > 0, -modulus * law.reference_rate * np.exp(excess), 0.0)
+
+    end = solve_ivp(rate, (0, hold), [30e6], "Radau", rtol=1e-6).y[0, -1]
+    assert law.flow_stress(modulus) == 1.0
+    assert replace(law, hold=hold).flow_stress(modulus) == pytest.approx(end, rel=1e-2, abs=50)

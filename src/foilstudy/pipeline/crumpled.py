@@ -14,9 +14,9 @@ from foilstudy.base.record import read_record
 from foilstudy.base.spec import dumped, loaded
 from foilstudy.measure.dynamics import DynamicsOptions
 from foilstudy.measure.stiffness import prestressed_stiffness, tangent_stiffness
+from foilstudy.measure.stiffness.stress_removal import Relieved, StressRemoval
 from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.model.patch import Patch
-from foilstudy.model.shell.shell import Shell
 from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.pipeline.shape import Shape
 from foilstudy.pipeline.static import (
@@ -109,7 +109,7 @@ class Crumpled(Shape):
         """That of the recipe, the default one for a shape from elsewhere."""
         return self.recipe.method if self.recipe else Method()
 
-    def relieved(self, removal=None) -> Shell:
+    def relieved(self, removal: StressRemoval | None = None) -> Relieved:
         """The shell that the recipe calls stress-free in this shape."""
         return super().relieved(removal or self.method.stress_removal)
 

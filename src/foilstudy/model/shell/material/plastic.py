@@ -142,8 +142,11 @@ class PlasticTerm:
 
     def tangent(self, points: np.ndarray, state: PlasticState) -> sparse.csr_matrix:
         """See `solve.problem.Term`: at fixed plastic strains."""
-        blocks = self._strains.tangent_blocks(points, state.inelastic)
-        return block_matrix(self._section.patch, blocks)
+        return block_matrix(self._section.patch, self.tangent_blocks(points, state))
+
+    def tangent_blocks(self, points: np.ndarray, state: PlasticState) -> np.ndarray:
+        """The same by control point and neighbour, as `Shell.tangent_blocks`."""
+        return self._strains.tangent_blocks(points, state.inelastic)
 
     def evolved(self, points: np.ndarray, state: PlasticState) -> PlasticState:
         """See `solve.problem.Term`: every layer back on its yield surface."""
