@@ -146,8 +146,8 @@ def test_what_is_no_crumple_is_refused(tmp_path):
 class Sliding(Elastic):
     """A law with a memory: a slider between one point of the foil and where it stood."""
 
-    def terms(self, section):
-        return (sliding(section, yield_force=0.5),)
+    def terms(self, shell):
+        return (sliding(shell, yield_force=0.5),)
 
 
 def test_a_law_with_a_memory_is_one_class_and_one_line(monkeypatch):

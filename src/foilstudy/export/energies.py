@@ -10,8 +10,8 @@ from foilstudy.model.patch import Patch
 from foilstudy.model.shell.elements.corner import Corner
 from foilstudy.model.shell.elements.full import Full
 from foilstudy.model.shell.elements.one_point import OnePoint
-from foilstudy.model.shell.elements.sampled import basis_weights
 from foilstudy.model.shell.elements.sampling import LAW_PAIRS, StrainSampling, corner
+from foilstudy.model.shell.elements.sampling_tables import basis_weights
 from foilstudy.model.shell.geometry import reference_geometry
 from foilstudy.model.shell.shell import Shell
 

@@ -44,7 +44,7 @@ def evidence_of(shape: Shape, status: str, negative_eigenvalues: int | None) -> 
         "negative_eigenvalues": np.nan if negative_eigenvalues is None else negative_eigenvalues,
         "static_stiffness": _stiffness(lambda: stress_free_stiffness(shape)),
         "prestressed_stiffness": _stiffness(
-            lambda: prestressed_stiffness(shape.stressed, shape.points)
+            lambda: prestressed_stiffness(shape.problem(), shape.points)
         ),
     }
     return Evidence.of(status, values)

@@ -8,7 +8,7 @@ from typing import Self
 
 import numpy as np
 
-from foilstudy.measure.stiffness.stress_removal import Reset, StressRemoval
+from foilstudy.measure.stiffness.stress_removal import Relieved, Reset, StressRemoval
 from foilstudy.model.foil import Foil
 from foilstudy.model.patch import Patch, refine
 from foilstudy.model.shell.elements.protocol import Element
@@ -50,10 +50,10 @@ class Shape:
 
     def problem(self) -> Problem:
         """The potential energy of the foil: its shell, and what its law adds to that."""
-        section = self.stressed.section
-        return Problem(self.stressed, *section.law.terms(section))
+        shell = self.stressed
+        return Problem(shell, *shell.section.law.terms(shell))
 
-    def relieved(self, removal: StressRemoval | None = None) -> Shell:
+    def relieved(self, removal: StressRemoval | None = None) -> Relieved:
         """The shell that is stress-free in this shape."""
         return (removal or Reset()).relieved(self.stressed, self.points)
 

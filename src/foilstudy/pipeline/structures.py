@@ -3,28 +3,33 @@
 from __future__ import annotations
 
 import numpy as np
+import scipy.sparse as sparse
 
 from foilstudy.measure.dynamics.structure import Structure
 from foilstudy.measure.stiffness import InterfaceSystem, Rings
 from foilstudy.measure.stiffness.rings import interface_rigid_modes
+from foilstudy.measure.stiffness.stress_removal import Relieved, Residual
 from foilstudy.model.patch import RING_ROWS
 from foilstudy.model.shell.tangent import mass_matrix
 from foilstudy.pipeline.shape import Shape
 
 
 def stress_free_structure(shape: Shape) -> Structure:
-    """The crumpled shape without its stresses, as published.
+    """The crumpled shape without its stresses, but for those that their removal has left.
 
     Raises
     ------
     SolveError
         If the stiffness with held rings is singular.
     """
-    return Structure.assembled(stress_free_stiffness(shape), mass(shape), _rigid_motions(shape))
+    relieved = shape.relieved()
+    left = isinstance(relieved, Residual)  # what has stress resists its own turning
+    motions = _rigid_motions(shape)[:, : 3 if left else 6]
+    return Structure.assembled(_relieved_stiffness(shape, relieved), mass(shape), motions)
 
 
 def prestressed_structure(shape: Shape) -> Structure:
-    """The crumpled shape with its stresses: the consistent tangent at the equilibrium.
+    """The crumpled shape with the stresses that hold it there.
 
     Raises
     ------
@@ -37,17 +42,29 @@ def prestressed_structure(shape: Shape) -> Structure:
 
 def stress_free_stiffness(shape: Shape) -> InterfaceSystem:
     """Stiffness of the shape without its stresses, split by the rings."""
-    matrix = shape.relieved().tangent()
-    return InterfaceSystem.split(matrix, Rings.of(shape.patch, shape.points))
+    return _relieved_stiffness(shape, shape.relieved())
+
+
+def _relieved_stiffness(shape: Shape, relieved: Relieved) -> InterfaceSystem:
+    if isinstance(relieved, Residual):
+        return _stressed_stiffness(shape, relieved.tangent(), relieved.residual_force())
+    return InterfaceSystem.split(relieved.tangent(), Rings.of(shape.patch, shape.points))
 
 
 def prestressed_stiffness(shape: Shape) -> InterfaceSystem:
     """The same with its stresses, those included that turn with a loaded ring."""
-    shell, points = shape.stressed, shape.points
-    rings = Rings.of(shape.patch, points)
-    stiffness = InterfaceSystem.split(shell.tangent(points), rings)
+    problem, points = shape.problem(), shape.points
     force = np.empty_like(points)
-    shell.force(points, force)
+    problem.force(points, force)
+    return _stressed_stiffness(shape, problem.tangent(points), force)
+
+
+def _stressed_stiffness(
+    shape: Shape, tangent: sparse.csr_matrix, force: np.ndarray
+) -> InterfaceSystem:
+    """With the tangent and the forces on all control points."""
+    points = shape.points
+    stiffness = InterfaceSystem.split(tangent, Rings.of(shape.patch, points))
     for ring, rows in enumerate((slice(0, RING_ROWS), slice(-RING_ROWS, None))):
         turning = slice(6 * ring + 3, 6 * ring + 6)
         stiffness.interface[turning, turning] += _turning_stiffness(points[:, rows], force[:, rows])

@@ -2,20 +2,38 @@
 
 from __future__ import annotations
 
+from typing import Protocol
+
 import numpy as np
+import scipy.sparse as sparse
 
 from foilstudy.measure.stiffness.condensation import InterfaceSystem, condense
 from foilstudy.measure.stiffness.directional import fixed_stiffness
 from foilstudy.measure.stiffness.rings import Rings
-from foilstudy.model.shell.shell import Shell
+from foilstudy.model.patch import Patch
 
 
-def prestressed_stiffness(sheet: Shell, points: np.ndarray) -> np.ndarray:
+class Stressed(Protocol):
+    """What has a tangent in any shape: a `Shell`, or a problem at its state.
+
+    Attributes
+    ----------
+    patch : Patch
+    """
+
+    patch: Patch
+
+    def tangent(self, points: np.ndarray) -> sparse.csr_matrix:
+        """See `Shell.tangent`."""
+        ...
+
+
+def prestressed_stiffness(sheet: Stressed, points: np.ndarray) -> np.ndarray:
     """Axial and radial stiffness of the consistent tangent at an equilibrium, other motions held.
 
     Parameters
     ----------
-    sheet : Shell
+    sheet : Stressed
     points : ndarray, shape (3, rows, columns)
         Control points at the equilibrium, m.
 

@@ -6,13 +6,13 @@ import numpy as np
 
 from foilstudy.measure.stiffness.condensation import factorise_held
 from foilstudy.measure.stiffness.directional import by_direction
+from foilstudy.measure.stiffness.stress_removal import Relieved
 from foilstudy.model.patch import RING_ROWS
 from foilstudy.model.shell.held import held_blocks
-from foilstudy.model.shell.shell import Shell
 
 
-def transfer_stiffness(sheet: Shell) -> np.ndarray:
-    """Axial and radial stiffness of a sheet in its stress-free shape, other motions held, N/m.
+def transfer_stiffness(sheet: Relieved) -> np.ndarray:
+    """Axial and radial stiffness of a relieved sheet, other motions held, N/m.
 
     The numbers of the whole interface stiffness, from three loads instead of twelve.
 

@@ -88,6 +88,7 @@ def _shape(crumpled: Crumpled) -> dict[str, np.ndarray]:
         "surface": surface,
         "reference_surface": reference,
         "radial_displacement": _radial_displacement(surface, reference),
+        **crumpled.problem().recorded(),
     }
 
 
@@ -115,4 +116,5 @@ def _numbers(crumpled: Crumpled) -> dict[str, float]:
         "radial_displacement_max": radial.max(),
         "radial_displacement_rms": np.sqrt(np.mean(radial**2)),
         **sensors(crumpled),
+        **problem.numbers(),
     }

@@ -10,6 +10,7 @@ from foilstudy.base.outcome import USABLE
 from foilstudy.base.registry import Registry
 from foilstudy.config import load_config
 from foilstudy.model.shell.elements import ELEMENTS
+from foilstudy.model.shell.material import LAWS
 from foilstudy.solve.choices import MASSES, PATHS, SEARCHES
 
 
@@ -58,6 +59,7 @@ def _variants() -> Iterator[dict]:
     Not those that are known to fail: whoever tries one waits for its kernels.
     """
     yield from ({"mesh": {"element": name}} for name in _safe(ELEMENTS))
+    yield from ({"material": {"law": name}} for name in _safe(LAWS)[1:])
     registries = {"path": PATHS, "mass": MASSES, "search": SEARCHES}
     for key, registry in registries.items():
         yield from ({"method": {key: name}} for name in _safe(registry)[1:])

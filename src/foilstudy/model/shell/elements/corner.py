@@ -8,6 +8,7 @@ import numpy as np
 
 from foilstudy.model.shell.elements import corner_kernel
 from foilstudy.model.shell.elements.corner_data import pack
+from foilstudy.model.shell.elements.mean_strains import CornerMeanStrains
 from foilstudy.model.shell.elements.sampled import SampledKernel
 from foilstudy.model.shell.elements.sampling import corner
 from foilstudy.model.shell.section import Section
@@ -39,6 +40,9 @@ class Corner:
 
     def kernel(self, section: Section) -> CornerKernel:
         return CornerKernel(section, self.share(section))
+
+    def mean_strains(self, section: Section) -> CornerMeanStrains:
+        return CornerMeanStrains(section, corner(self.share(section)))
 
 
 class CornerKernel(SampledKernel):

@@ -9,6 +9,8 @@ from numba import njit
 
 from foilstudy.model.patch import Patch
 from foilstudy.model.shell.elements import one_point_kernel
+from foilstudy.model.shell.elements.mean_strains import SampledMeanStrains
+from foilstudy.model.shell.elements.sampling import one_point
 from foilstudy.model.shell.geometry import reference_geometry
 from foilstudy.model.shell.section import Section
 
@@ -34,6 +36,9 @@ class OnePoint:
 
     def kernel(self, section: Section) -> _Kernel:
         return _Kernel(section, self.stabilisation)
+
+    def mean_strains(self, section: Section) -> SampledMeanStrains:
+        return SampledMeanStrains(section, one_point(self.stabilisation))
 
 
 class _Kernel:

@@ -6,6 +6,7 @@ from typing import Protocol
 
 import numpy as np
 
+from foilstudy.model.shell.elements.mean_strains import Inelastic
 from foilstudy.model.shell.section import Section
 
 
@@ -28,6 +29,22 @@ class ElementKernel(Protocol):
         ...
 
 
+class MeanStrains(Protocol):
+    """Six strains of every element of a section, for a law with a memory; see `mean_strains`."""
+
+    def strains(self, points: np.ndarray) -> np.ndarray:
+        """Membrane and bending strains, shape (elements_along, 6, elements_around), 1 and 1/m."""
+        ...
+
+    def force(self, points: np.ndarray, inelastic: Inelastic, out: np.ndarray) -> float:
+        """Write the force, N, and return the work, J, of the stresses that the elements lack."""
+        ...
+
+    def tangent_blocks(self, points: np.ndarray, inelastic: Inelastic) -> np.ndarray:
+        """The derivative of that force, as in `ElementKernel`."""
+        ...
+
+
 class Element(Protocol):
     """Where an element samples its strains."""
 
@@ -35,4 +52,8 @@ class Element(Protocol):
 
     def kernel(self, section: Section) -> ElementKernel:
         """The element at work on a section."""
+        ...
+
+    def mean_strains(self, section: Section) -> MeanStrains:
+        """What a law with a memory sees of it."""
         ...

@@ -25,8 +25,8 @@ class Law(Protocol):
 
     material: Material
 
-    def terms(self, section: Any) -> tuple[Any, ...]:
-        """What a problem has to add to the elastic shell of a section."""
+    def terms(self, shell: Any) -> tuple[Any, ...]:
+        """What a problem has to add to the elastic shell of this law."""
         ...
 
     def membrane_stiffness(self, forms: np.ndarray, thickness: float) -> np.ndarray:
@@ -50,5 +50,11 @@ class Law(Protocol):
 
 LAWS = Registry(
     "material law",
-    {"elastic": Choice("model.shell.material.elastic:Elastic", "linear elastic and isotropic")},
+    {
+        "elastic": Choice("model.shell.material.elastic:Elastic", "linear elastic and isotropic"),
+        "plastic": Choice(
+            "model.shell.material.plastic:Plastic",
+            "elastic up to the yield stress, then von Mises plasticity with linear hardening",
+        ),
+    },
 )

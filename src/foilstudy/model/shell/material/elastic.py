@@ -27,7 +27,7 @@ class Elastic:
     def __post_init__(self):
         object.__setattr__(self, "material", material(self.material))
 
-    def terms(self, section: Any) -> tuple[Any, ...]:
+    def terms(self, shell: Any) -> tuple[Any, ...]:
         """See `Law`: none."""
         return ()
 

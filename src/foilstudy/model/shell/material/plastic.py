@@ -1,0 +1,223 @@
+"""Elastic-plastic foil: von Mises plasticity in layers through the thickness (plane stress).
+
+The layers stand in the middle of each element and see its mean strains. Their plastic strains take
+stress off the elastic shell; with them as the state, that is a term of the energy that is linear
+in the strains. What the strains of one element differ by stays elastic.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import scipy.sparse as sparse
+
+from foilstudy.model.shell.elements.mean_strains import Inelastic
+from foilstudy.model.shell.material.elastic import Elastic
+from foilstudy.model.shell.material.return_map import Flow, cartesian_frame, evolve
+from foilstudy.model.shell.tangent import block_matrix
+
+LAYERS = 8
+"""Moment over curvature within 0.022 of the elastic limit moment, to six times its curvature; with
+5, 7 and 21 layers it is 0.056, 0.028 and 0.003."""
+HARDENING = 1 / 20
+"""Default slope of stress over plastic strain, of Young's modulus. Perfectly plastic elements may
+fold flat and never settle; with this none did."""
+
+
+def layer_heights(number: int, thickness: float) -> np.ndarray:
+    """Of the layers above the middle surface, m.
+
+    In the middle of their shares of the thickness, but all a little further out, which makes the
+    elastic bending stiffness exact.
+    """
+    places = (np.arange(number) + 0.5) / number - 0.5
+    return thickness * places / np.sqrt(1 - 1 / number**2)
+
+
+@dataclass(frozen=True)
+class Plastic(Elastic):
+    """Linear elastic up to the yield stress of the material, with linear hardening beyond.
+
+    Attributes
+    ----------
+    material : Material
+        Or the name of a known one.
+    hardening : float, optional
+        Slope of stress over plastic strain, Pa; that of the material, or a twentieth of Young's
+        modulus, if left out.
+    kinematic_share : float
+        Of the hardening: moves the yield surface, by which a bend that is bent back yields early;
+        the rest widens it.
+    layers : int
+        Through the thickness.
+    """
+
+    hardening: float | None = None
+    kinematic_share: float = 1.0
+    layers: int = LAYERS
+
+    def __post_init__(self):
+        super().__post_init__()
+        if self.hardening is None:
+            made = self.material
+            default = HARDENING * made.youngs_modulus if made.hardening is None else made.hardening
+            object.__setattr__(self, "hardening", default)
+
+    @property
+    def flow(self) -> Flow:
+        """Constants of the return map."""
+        made, kinematic = self.material, self.kinematic_share * self.hardening
+        isotropic = self.hardening - kinematic
+        return Flow(
+            made.youngs_modulus, made.poisson_ratio, made.yield_stress, isotropic, kinematic
+        )
+
+    def terms(self, shell: Any) -> tuple[PlasticTerm, ...]:
+        """See `Law`: the stress that plastic strains take off."""
+        return (PlasticTerm(shell, self),)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PlasticState:
+    """What plasticity has left in a foil.
+
+    Attributes
+    ----------
+    layers : ndarray, shape (elements_along, layers, 4, elements_around)
+        Plastic strains 11, 22, 2 12 in Cartesian axes, the first along the first coordinate of the
+        element, and the accumulated one, which never falls.
+    inelastic : Inelastic
+        Their mean and curvature, and the stresses these take off.
+    energy : float
+        Elastic energy that the plastic strains alone would have, J.
+    """
+
+    layers: np.ndarray
+    inelastic: Inelastic
+    energy: float
+
+    def __repr__(self) -> str:
+        return f"<PlasticState: up to {self.accumulated.max():.3g}>"
+
+    @property
+    def accumulated(self) -> np.ndarray:
+        """Accumulated plastic strain, shape (elements_along, layers, elements_around)."""
+        return self.layers[:, :, 3]
+
+
+class PlasticTerm:
+    """The share of the energy that plastic strains take off an elastic shell.
+
+    A term of a `solve.problem.Problem` whose first term is that shell. With the shell's energy it
+    adds up to what the foil would give back on unloading, which is never negative.
+
+    Parameters
+    ----------
+    shell : Shell
+    law : Plastic
+    """
+
+    energy_names = ("plastic_relief",)
+
+    def __init__(self, shell: Any, law: Plastic):
+        self.law, self._section = law, shell.section
+        self._strains = shell.element.mean_strains(shell.section)
+        self.heights = layer_heights(law.layers, self._section.thickness)
+
+    @cached_property
+    def _frame(self) -> np.ndarray:
+        volumes = self._section.areas * self._section.thickness
+        return np.concatenate([cartesian_frame(self._section.forms), volumes[:, None]], axis=1)
+
+    def start(self) -> PlasticState:
+        """No plastic strain."""
+        along, _, around = self._section.stiffness.shape
+        none = np.zeros((along, 6, around))
+        return PlasticState(np.zeros((along, self.law.layers, 4, around)), Inelastic(none, none), 0)
+
+    def numbers(self, state: PlasticState) -> dict[str, float]:
+        """See `solve.problem.Lasting`: what has yielded takes the place of what would have."""
+        return {
+            "beyond_yield_share": self.yielded_share(state),
+            "plastic_share": self.plastic_share(state),
+            "plastic_strain_max": float(state.accumulated.max()),
+            "dissipated_work": self.dissipated(state),
+        }
+
+    def recorded(self, state: PlasticState) -> dict[str, np.ndarray]:
+        """See `solve.problem.Lasting`."""
+        return {"plastic_strain": state.layers}
+
+    def split(self, state: PlasticState) -> dict[str, np.ndarray]:
+        """See `solve.problem.Lasting`: each quarter has the plastic strains of the whole."""
+        return {"plastic_strain": state.layers.repeat(2, axis=0).repeat(2, axis=3)}
+
+    def restored(self, values: Mapping[str, np.ndarray]) -> PlasticState:
+        """See `solve.problem.Lasting`."""
+        rigid = self.law.flow._replace(yield_stress=np.inf)
+        layers = np.ascontiguousarray(values["plastic_strain"])
+        return self._flowed(np.zeros_like(self._section.stiffness), layers, rigid)
+
+    def force(self, points: np.ndarray, out: np.ndarray, state: PlasticState) -> np.ndarray:
+        """See `solve.problem.Term`."""
+        return np.array([self._strains.force(points, state.inelastic, out) + state.energy])
+
+    def tangent(self, points: np.ndarray, state: PlasticState) -> sparse.csr_matrix:
+        """See `solve.problem.Term`: at fixed plastic strains."""
+        return block_matrix(self._section.patch, self.tangent_blocks(points, state))
+
+    def tangent_blocks(self, points: np.ndarray, state: PlasticState) -> np.ndarray:
+        """The same by control point and neighbour, as `Shell.tangent_blocks`."""
+        return self._strains.tangent_blocks(points, state.inelastic)
+
+    def evolved(self, points: np.ndarray, state: PlasticState) -> PlasticState:
+        """See `solve.problem.Term`: every layer back on its yield surface."""
+        return self._flowed(self._strains.strains(points), state.layers, self.law.flow)
+
+    def _flowed(self, strains: np.ndarray, before: np.ndarray, flow: Flow) -> PlasticState:
+        layers, inelastic = np.empty_like(before), np.empty_like(strains)
+        energy = evolve(strains, self._frame, self.heights, flow, before, layers, inelastic)
+        return PlasticState(layers, Inelastic.of(self._section, inelastic), energy)
+
+    def stresses(self, points: np.ndarray, state: PlasticState) -> np.ndarray:
+        """Cartesian stresses 11, 22, 12 of the layers, Pa.
+
+        Shape (elements_along, layers, 3, elements_around).
+        """
+        strains = self._strains.strains(points)
+        elastic = np.stack(
+            [self._turned(strains[:, :3] + z * strains[:, 3:]) for z in self.heights]
+        )
+        elastic = elastic.transpose(1, 0, 2, 3) - state.layers[:, :, :3]
+        made = self.law.material
+        nu = made.poisson_ratio
+        e1, e2, e6 = elastic.transpose(2, 0, 1, 3)
+        plane = made.youngs_modulus / (1 - nu**2)
+        return np.stack(
+            [plane * (e1 + nu * e2), plane * (e2 + nu * e1), plane * 0.5 * (1 - nu) * e6], axis=2
+        )
+
+    def dissipated(self, state: PlasticState) -> float:
+        """Work that plastic flow has used up, J: all but what kinematic hardening keeps."""
+        flow, done = self.law.flow, state.accumulated
+        density = (flow.yield_stress * done + 0.5 * flow.isotropic * done**2).mean(axis=1)
+        return float(np.sum(self._frame[:, 6] * density))
+
+    def plastic_share(self, state: PlasticState) -> float:
+        """Share of the volume that has yielded."""
+        return float(np.average((state.accumulated > 0).mean(axis=1), weights=self._frame[:, 6]))
+
+    def yielded_share(self, state: PlasticState) -> float:
+        """Share of the stress-free area under which any layer has yielded."""
+        return float(np.average((state.accumulated > 0).any(axis=1), weights=self._frame[:, 6]))
+
+    def _turned(self, covariant: np.ndarray) -> np.ndarray:
+        """Strains (elements_along, 3, elements_around) in Cartesian axes."""
+        (e1, e2, e6), f = covariant.transpose(1, 0, 2), self._frame.transpose(1, 0, 2)
+        return np.stack(
+            [f[0] * e1, f[1] * e1 + f[2] * e2 + f[3] * e6, f[4] * e1 + f[5] * e6], axis=1
+        )

@@ -1,0 +1,398 @@
+"""Plasticity in layers: against closed forms, its derivatives, and in a crumple."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from conftest import FEP, FOIL, rotation
+from scipy.integrate import solve_ivp
+from wild_sheets import Foil, extrapolated, flat, unflat, wild_open_sheet, wild_shape, wild_sheet
+
+from foilstudy.base.record import read_record
+from foilstudy.config import load_config
+from foilstudy.measure.stiffness import fixed_stiffness
+from foilstudy.measure.stiffness.stress_flow import JohnsonCook, ZerilliArmstrong
+from foilstudy.measure.stiffness.stress_removal import Reset
+from foilstudy.model.foil import Imperfection
+from foilstudy.model.patch import RING_ROWS, Patch, fitted_control_points
+from foilstudy.model.shell.elements import sampling
+from foilstudy.model.shell.elements.corner import Corner
+from foilstudy.model.shell.elements.mean_strains import SampledMeanStrains
+from foilstudy.model.shell.elements.one_point import OnePoint
+from foilstudy.model.shell.material.plastic import LAYERS, Plastic, layer_heights
+from foilstudy.model.shell.material.return_map import Flow, evolve, increment
+from foilstudy.model.shell.section import Section
+from foilstudy.model.shell.shell import Shell
+from foilstudy.pipeline.crumple import crumple
+from foilstudy.pipeline.crumpled import Crumpled
+from foilstudy.pipeline.method import Mesh, Method
+from foilstudy.pipeline.structures import stress_free_structure
+from foilstudy.solve.paths.relaxation import RelaxationPath
+from foilstudy.study.sweep.crumple import crumple_job
+
+either_patch = pytest.mark.parametrize("make", [wild_sheet, wild_open_sheet])
+either_element = pytest.mark.parametrize(
+    "element", [Corner(), OnePoint(0.3)], ids=lambda element: element.name
+)
+
+
+# --- the return map ------------------------------------------------------------------------------
+
+
+def stress_of(strain, flow):
+    """Plane stress (11, 22, 12) of an elastic strain."""
+    plane = flow.youngs_modulus / (1 - flow.poisson_ratio**2)
+    e1, e2, e6 = strain
+    nu = flow.poisson_ratio
+    return plane * np.array([e1 + nu * e2, e2 + nu * e1, 0.5 * (1 - nu) * e6])
+
+
+def back_stress_of(plastic, flow):
+    """In-plane tensor whose deviator is 2/3 of the kinematic hardening times the plastic strain."""
+    p1, p2, p6 = plastic
+    return flow.kinematic * 2 / 3 * np.array([2 * p1 + p2, 2 * p2 + p1, 0.5 * p6])
+
+
+def von_mises(stress):
+    s1, s2, s6 = stress
+    return np.sqrt(s1**2 + s2**2 - s1 * s2 + 3 * s6**2)
+
+
+@pytest.mark.parametrize("nu", [-0.9, 0.0, 0.3, 0.5])
+@pytest.mark.parametrize("hardening", [(0, 0), (0.05, 0), (0, 0.05), (1.0, 1.0)])
+def test_flow_ends_on_the_yield_surface_along_its_normal(nu, hardening):
+    flow = Flow(1.0, nu, 1e-3, *hardening)
+    rng = np.random.default_rng(0)
+    for excess in (0.1, 1.001, 1.5, 10.0, 1e3):
+        plastic, done = 1e-3 * rng.standard_normal(3), 1e-3
+        strain = plastic + 1e-3 * excess * rng.standard_normal(3)
+        *flowed, more = increment(tuple(strain), tuple(plastic), done, flow)
+        after = plastic + flowed
+        relative = stress_of(strain - after, flow) - back_stress_of(after, flow)
+        limit = flow.yield_stress + flow.isotropic * (done + more)
+        if more == 0:
+            assert von_mises(relative) <= limit and not np.any(flowed)
+            continue
+        assert von_mises(relative) == pytest.approx(limit, rel=1e-9)
+        # by the normal, so that the work of the relative stress is the flow stress times the path
+        work = relative @ flowed
+        assert work > 0 and work == pytest.approx(limit * more, rel=1e-7)
+        d1, d2, d6 = flowed
+        path = np.sqrt(2 / 3 * (d1**2 + d2**2 + (d1 + d2) ** 2 + 0.5 * d6**2))
+        assert path == pytest.approx(more, rel=1e-9)
+
+
+def test_what_is_not_a_number_is_no_flow_but_stays_seen():
+    """Such strains do not hang the iteration; the elastic force tells of them."""
+    assert (
+        increment((np.nan, 0.0, 0.0), (0.0, 0.0, 0.0), 0.0, Flow(1.0, 0.3, 1e-3, 0, 0)) == (0,) * 4
+    )
+
+
+@pytest.mark.parametrize("kinematic_share", [0.0, 0.4, 1.0])
+def test_uniaxial_curve(kinematic_share):
+    """An incompressible bar gets half as much thinner in width: there is no stress across."""
+    limit, hardening = 1e-3, 0.05
+    flow = Flow(1.0, 0.5, limit, (1 - kinematic_share) * hardening, kinematic_share * hardening)
+    plastic, done = np.zeros(3), 0.0
+    tangent = hardening / (1 + hardening)
+    for stretch in np.linspace(0, 8 * limit, 41):
+        strain = stretch * np.array([1.0, -0.5, 0.0])
+        *flowed, more = increment(tuple(strain), tuple(plastic), done, flow)
+        plastic, done = plastic + flowed, done + more
+        along, across, _ = stress_of(strain - plastic, flow)
+        expected = stretch if stretch < limit else limit + tangent * (stretch - limit)
+        assert along == pytest.approx(expected, rel=1e-9, abs=1e-15)
+        assert abs(across) < 1e-12
+    # pulled back: the elastic range is as wide as it has become, or has moved
+    width = 2 * (limit + (1 - kinematic_share) * hardening * done)
+    for share, flows in ((0.999, False), (1.001, True)):
+        strain = (stretch - share * width) * np.array([1.0, -0.5, 0.0])
+        assert (increment(tuple(strain), tuple(plastic), done, flow)[3] > 0) == flows
+
+
+def test_moment_over_curvature():
+    """A wide plate of an incompressible, perfectly plastic foil: 3/2 - 1/2 (k_y / k)^2."""
+    thickness, limit, nu = 1.0, 1e-3, 0.5
+    flow = Flow(1.0, nu, limit, 0.0, 0.0)
+    first = 2 * (2 * limit / np.sqrt(3)) * (1 - nu**2) / thickness
+    heights = layer_heights(LAYERS, thickness)
+    assert np.mean(heights**2) == pytest.approx(thickness**2 / 12, rel=1e-14)
+    frame = np.array([1.0, 0, 1, 0, 0, 1, thickness]).reshape(1, 7, 1)
+    state = np.zeros((1, LAYERS, 4, 1))
+    for ratio in np.linspace(0.01, 6, 300):
+        strain, inelastic, after = np.zeros((1, 6, 1)), np.empty((1, 6, 1)), np.empty_like(state)
+        strain[0, 3] = ratio * first
+        evolve(strain, frame, heights, flow, state, after, inelastic)
+        state = after
+        k1, k2 = (strain - inelastic)[0, 3:5, 0]
+        moment = (k1 + nu * k2) / first
+        exact = ratio if ratio < 1 else 1.5 - 0.5 / ratio**2
+        assert abs(moment - exact) < 0.025
+        assert ratio >= 1 or abs(moment - exact) < 1e-12  # elastic bending is exact
+
+
+# --- the term ------------------------------------------------------------------------------------
+
+
+def plastic_sheet(make, element, yield_stress=2e6, around=6, along=3):
+    sheet = make(around, along, Foil(element))
+    law = Plastic(replace(FEP, yield_stress=yield_stress), kinematic_share=0.5)
+    section = Section(sheet.patch, sheet.reference, sheet.thickness, law)
+    shell = Shell(section, element)
+    (term,) = law.terms(shell)
+    return shell, term
+
+
+def force_of(term, points, state):
+    out = np.empty_like(points)
+    (energy,) = term.force(np.ascontiguousarray(points), out, state)
+    return energy, out
+
+
+@either_element
+@either_patch
+def test_derivatives_at_a_fixed_state(element, make):
+    shell, term = plastic_sheet(make, element)
+    points = wild_shape(shell)
+    state = term.evolved(wild_shape(shell, seed=8), term.start())
+    assert term.plastic_share(state) > 0.5
+    _, force = force_of(term, points, state)
+    tangent = term.tangent(points, state)
+    assert abs(tangent - tangent.T).max() < 1e-12 * abs(tangent).max()
+    way = np.random.default_rng(0).standard_normal(points.shape)
+
+    def slope(step, part):
+        ahead, behind = (force_of(term, points + s * step * way, state)[part] for s in (1, -1))
+        return (ahead - behind) / (2 * step)
+
+    step = 1e-3 * shell.patch.size_around
+    error = extrapolated(lambda h: slope(h, 0), step) - (force * way).sum()
+    assert abs(error) < 1e-8 * np.linalg.norm(force) * np.linalg.norm(way)
+    product = unflat(tangent @ flat(way), shell.patch)
+    error = extrapolated(lambda h: slope(h, 1), step) - product
+    assert np.linalg.norm(error) < 1e-7 * np.linalg.norm(product)
+
+
+@pytest.mark.parametrize("around", [5, 9, 131])
+@either_patch
+def test_vectorised_mean_strains_are_the_general_ones(make, around):
+    shell, term = plastic_sheet(make, Corner(), around=around)
+    points = wild_shape(shell)
+    state = term.evolved(points, term.start())
+    fast = shell.element.mean_strains(shell.section)
+    sampled = sampling.corner(shell.element.share(shell.section))
+    general = SampledMeanStrains(shell.section, sampled)
+    strains = general.strains(points)
+    np.testing.assert_allclose(fast.strains(points), strains, rtol=0, atol=1e-12 * strains.max())
+    force, expected = np.empty_like(points), np.empty_like(points)
+    work = fast.force(points, state.inelastic, force)
+    assert work == pytest.approx(general.force(points, state.inelastic, expected), rel=1e-12)
+    np.testing.assert_allclose(force, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
+
+
+@either_element
+@either_patch
+def test_a_rigid_motion_costs_nothing(element, make):
+    shell, term = plastic_sheet(make, element)
+    turn = rotation([1, 2, 3], 0.7)
+
+    def moved(points):
+        return np.einsum("ij,jrc->irc", turn, points) + np.array([0.1, 0.2, 0.3])[:, None, None]
+
+    state = term.evolved(moved(shell.reference), term.start())
+    assert state.accumulated.max() == 0
+    points = wild_shape(shell)
+    state = term.evolved(points, term.start())
+    again = term.evolved(moved(points), state)
+    assert np.abs(again.layers - state.layers).max() < 1e-9 * np.abs(state.layers).max()
+    energy, force = force_of(term, points, state)
+    there, turned = force_of(term, moved(points), state)
+    assert there == pytest.approx(energy, rel=1e-9)
+    np.testing.assert_allclose(
+        turned, np.einsum("ij,jrc->irc", turn, force), rtol=0, atol=1e-8 * np.abs(force).max()
+    )
+
+
+def test_energies_along_a_random_way():
+    """What is left of the elastic energy is never negative, and dissipation never falls.
+
+    The work done on the foil is what is left, what hardening keeps and what is dissipated.
+    """
+    shell, term = plastic_sheet(wild_sheet, Corner())
+    start, rng = shell.reference, np.random.default_rng(5)
+    ends = [
+        start + 0.02 * shell.patch.size_around * rng.standard_normal(start.shape) for _ in "123"
+    ]
+    ways = zip([start, *ends], [*ends, start], strict=True)
+    state, before, work, dissipated = term.start(), start, 0.0, 0.0
+    elastic, share = np.empty_like(start), np.empty_like(start)
+    shell.force(start, elastic)
+    force, steps = elastic.copy(), 400
+    for first, last in ways:
+        for step in range(1, steps + 1):
+            points = first + step / steps * (last - first)
+            state = term.evolved(points, state)
+            energy = shell.force(points, elastic).sum() + term.force(points, share, state)[0]
+            assert energy >= 0
+            now = elastic + share
+            work += 0.5 * np.sum((force + now) * (points - before))
+            force, before = now, points
+            assert term.dissipated(state) >= dissipated
+            dissipated = term.dissipated(state)
+    flow, layers = term.law.flow, state.layers
+    p1, p2, p6 = layers[:, :, :3].transpose(2, 0, 1, 3)
+    kept = flow.kinematic * 2 / 3 * (p1**2 + p2**2 + p1 * p2 + 0.25 * p6**2)
+    volumes = shell.section.areas * shell.thickness
+    kept = np.sum(volumes * kept.mean(axis=1))
+    assert dissipated > 0.3 * work
+    assert work == pytest.approx(energy + kept + dissipated, rel=1e-2)
+
+
+# --- in a crumple --------------------------------------------------------------------------------
+
+COARSE = Mesh(20e-3)
+QUICK = Method(RelaxationPath(ramp_steps=400))
+
+
+def crumpled(law, yield_stress):
+    made = replace(FEP, law=law, yield_stress=yield_stress)
+    return crumple(replace(FOIL, material=made), COARSE, Imperfection(seed=3), QUICK)
+
+
+def test_a_yield_stress_out_of_reach_gives_the_elastic_crumple():
+    elastic, plastic = crumpled("elastic", 1e12), crumpled("plastic", 1e12)
+    assert np.abs(plastic.points - elastic.points).max() < 1e-15
+    assert plastic.arrival.state[1].accumulated.max() == 0
+
+
+@pytest.fixture(scope="module")
+def yielded():
+    return crumpled("plastic", 12e6)
+
+
+def test_a_plastic_crumple_rests_at_its_own_state(yielded):
+    assert yielded.status == "converged", yielded.message
+    problem = yielded.problem()
+    term, state = problem.terms[1], problem.state[1]
+    assert 0.1 < term.plastic_share(state) < 1
+    assert 0 < problem.value(yielded.points) < 0.9 * yielded.energies().total
+    stress = term.stresses(yielded.points, state).transpose(2, 0, 1, 3)
+    back = np.stack(back_stress_of(state.layers[:, :, :3].transpose(2, 0, 1, 3), term.law.flow))
+    assert von_mises(stress - back).max() <= 12e6 * (1 + 1e-9)
+    again = yielded.settled()
+    assert (again.arrival.steps, again.arrival.hessians) == (0, 0)
+
+
+def test_the_tangent_is_the_unloading_secant(yielded):
+    """Pulled apart a little, the ring's force falls by the stiffness of the settled state."""
+    problem, points = yielded.problem(), yielded.points.copy()
+    axial, _ = yielded.prestressed_stiffness()
+    pull = 20e-6
+    before, after = np.empty_like(points), np.empty_like(points)
+    problem.force(points, before)
+    points[2, -RING_ROWS:] += pull
+    settled = QUICK.path.settle(problem, points)
+    assert settled.status == "converged", settled.message
+    problem.force(settled.points, after)
+    secant = (after - before)[2, -RING_ROWS:].sum() / pull
+    assert secant == pytest.approx(axial, rel=0.02)
+
+
+def test_a_record_keeps_the_state(tmp_path):
+    """From a configuration to a record and back, and on to a finer mesh."""
+    study = load_config(
+        {
+            "material": {"law": "plastic", "hardening_mpa": 50},
+            "sweep": {"thickness_um": [500], "reference_height_mm": [170]},
+            "mesh": {"element_size_mm": 20},
+            "relaxation": {"ramp_steps": 400},
+        }
+    )
+    crumple_job(study.crumple_task(study.cells()[0]), tmp_path / "crumple.nc")
+    values, attributes = read_record(tmp_path / "crumple.nc")
+    assert attributes["status"] == "converged", attributes["message"]
+    back = Crumpled.recorded(tmp_path / "crumple.nc")
+    problem = back.problem()
+    term, state = problem.terms[1], problem.state[1]
+    assert term.law.hardening == 50e6
+    assert values["plastic_share"] == term.plastic_share(state)
+    assert values["plastic_share"] < values["beyond_yield_share"]
+    assert values["plastic_strain_max"] == state.accumulated.max() > 0.01
+    assert values["dissipated_work"] == term.dissipated(state) > 0
+    assert values["plastic_relief_energy"] < 0
+    # in equilibrium as it was written
+    assert back.settled().arrival.hessians == 0
+    finer = back.refined()
+    split = finer.arrival.state[1]
+    assert np.array_equal(split.layers[::2, :, :, ::2], state.layers)
+    assert np.array_equal(split.layers[1::2, :, :, 1::2], state.layers)
+    dissipated = finer.problem().terms[1].dissipated(split)
+    assert dissipated == pytest.approx(term.dissipated(state), rel=5e-3)
+    settled = finer.settled()
+    assert settled.status == "converged", settled.message
+    assert settled.problem().terms[1].dissipated(settled.arrival.state[1]) > dissipated
+
+
+def test_hardening_without_yield_is_a_slip():
+    grid = {"thickness_um": [500], "reference_height_mm": [170]}
+    with pytest.raises(ValueError, match="hardening_mpa is given, but material.law is elastic"):
+        load_config({"material": {"hardening_mpa": 50}, "sweep": grid})
+
+
+# --- stress removals by flow ---------------------------------------------------------------------
+
+
+def stretched_strip():
+    """A flat patch under a uniform strain of 1 %."""
+    patch = Patch(6, 6, 0.01, 0.01, periodic=False)
+    reference = fitted_control_points(patch, lambda s, z: np.stack([s, z, 0 * s]))
+    shell = Shell.elastic(patch, reference, FEP, 5e-4)
+    return shell, reference * np.array([1.01, 0.995, 1.0])[:, None, None]
+
+
+def test_uniform_strain_flows_away_in_a_held_shape():
+    shell, points = stretched_strip()
+    stressed = shell.energies(points).total
+    assert JohnsonCook().relieved(shell, points).residual_energy() < 1e-12 * stressed
+    out_of_plane = JohnsonCook().relieved(shell, points).tangent()[2::3, 2::3]
+    at_rest = Reset().relieved(shell, points).tangent()[2::3, 2::3]
+    # the same but for the stretched metric, where the stress itself counts many times more
+    assert abs(out_of_plane - at_rest).max() < 0.05 * abs(at_rest).max()
+    assert abs(shell.tangent(points)[2::3, 2::3] - at_rest).max() > abs(at_rest).max()
+
+
+def test_a_hold_that_is_too_short_leaves_all_stress():
+    crumple_at = crumpled("elastic", 12e6)
+    shell, points = crumple_at.stressed, crumple_at.points
+    short, long = JohnsonCook(hold=1e-30), JohnsonCook()
+    assert abs(short.relieved(shell, points).tangent() - shell.tangent(points)).max() == 0
+    energies = [r.relieved(shell, points).residual_energy() for r in (long, short)]
+    assert energies[1] == pytest.approx(crumple_at.energies().total, rel=1e-12)
+    assert 0 < energies[0] < 0.7 * energies[1]
+    # the two published laws come to the same residue, and neither is the exact reset
+    removals = [JohnsonCook(), ZerilliArmstrong(), Reset()]
+    methods = [replace(QUICK, stress_removal=removal) for removal in removals]
+    recipes = [replace(crumple_at.recipe, method=method) for method in methods]
+    relieved = [replace(crumple_at, recipe=recipe) for recipe in recipes]
+    values = [each.stiffness() for each in relieved]
+    assert values[0] == pytest.approx(values[1], rel=1e-4)
+    assert np.all(np.abs(values[0] / values[2] - 1) > 0.02)
+    # the same in the system with all motions, whose rings turn against the stress that is left
+    for each, value in zip(relieved, values, strict=True):
+        whole = fixed_stiffness(stress_free_structure(each).static.stiffness)
+        assert whole == pytest.approx(value, rel=1e-6)
+
+
+@pytest.mark.parametrize("hold", [1.0, 1e5, 1e9])
+def test_what_a_hold_leaves(hold):
+    """Against the differential equation of the stress at held strain, from 30 MPa."""
+    law, modulus = JohnsonCook(), 650e6
+
+    def rate(time, stress):
+        excess = (stress / law.yield_stress - 1) / law.rate_coefficient
+        return np.where(excess > 0, -modulus * law.reference_rate * np.exp(excess), 0.0)
+
+    end = solve_ivp(rate, (0, hold), [30e6], "Radau", rtol=1e-6).y[0, -1]
+    assert law.flow_stress(modulus) == 1.0
+    assert replace(law, hold=hold).flow_stress(modulus) == pytest.approx(end, rel=1e-2, abs=50)
