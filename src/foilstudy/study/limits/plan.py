@@ -53,7 +53,8 @@ def setting_of(trial: Trial) -> Setting:
 def _trials(foils: tuple[MappedFoil, ...]) -> Iterator[Trial]:
     for one in foils:
         for name, setting in SETTINGS.items():
-            if one.groups is None or setting.group in one.groups:
+            tried = setting.only_um is None or one.thickness_um in setting.only_um
+            if tried and (one.groups is None or setting.group in one.groups):
                 for seed in range(min(one.seeds, setting.seeds or one.seeds)):
                     yield Trial(name, one.thickness_um, one.height_mm, one.size_mm, seed)
 

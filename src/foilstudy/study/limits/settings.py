@@ -53,8 +53,8 @@ class Mapped(Section):
         A further place; one ending in ``_over_t`` counts in thicknesses of the foil.
     values : tuple
         Of that place, a row of the map each.
-    seeds : int or None
-        Where it takes long: most trials on a foil.
+    seeds, only_um : optional
+        Where it takes long: most trials on a foil, and the foils it is tried on.
     """
 
     group: str
@@ -63,6 +63,7 @@ class Mapped(Section):
     vary: str | None = None
     values: tuple[Value, ...] = pydantic.Field((), **_List)
     seeds: int | None = pydantic.Field(None, ge=1)
+    only_um: tuple[int, ...] | None = pydantic.Field(None, **_List)
 
 
 class Way(Section):
@@ -112,6 +113,8 @@ class Setting:
     changes : tuple of (place, value)
     seeds : int or None
         Most trials on a foil.
+    only_um : tuple of int or None
+        Thicknesses of the foils that it is tried on; None for all.
     """
 
     group: str
@@ -119,6 +122,7 @@ class Setting:
     value: str
     changes: tuple[tuple[str, Value], ...]
     seeds: int | None = None
+    only_um: tuple[int, ...] | None = None
 
     @property
     def name(self) -> str:
@@ -142,11 +146,11 @@ def settings_of(limits: Limits) -> Iterator[Setting]:
     for one in limits.methods:
         fixed = tuple(one.set.items())
         if one.vary is None:
-            yield Setting(one.group, one.method, "", fixed, one.seeds)
+            yield Setting(one.group, one.method, "", fixed, one.seeds, one.only_um)
         for value in one.values:
             shown = f"{value:g}" if isinstance(value, float) else str(value)
             changes = (*fixed, (one.vary, value))
-            yield Setting(one.group, one.method, shown, changes, one.seeds)
+            yield Setting(one.group, one.method, shown, changes, one.seeds, one.only_um)
 
 
 def read_limits(path: Path) -> Limits:

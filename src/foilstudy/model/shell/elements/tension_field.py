@@ -14,8 +14,8 @@ import numpy as np
 
 from foilstudy.model.patch import Patch
 from foilstudy.model.shell.elements.assembly import Groups, no_blocks
-from foilstudy.model.shell.elements.sampling_tables import basis_weights
 from foilstudy.model.shell.elements.sampling import gauss
+from foilstudy.model.shell.elements.sampling_tables import basis_weights
 from foilstudy.model.shell.section import Section
 
 _POINTS = 2
