@@ -22,6 +22,7 @@ from .sections import (
     HEIGHT_MAX_MM,
     Dynamics,
     Imperfection,
+    Installation,
     Material,
     Method,
     Relaxation,
@@ -56,6 +57,10 @@ def thickness_id(thickness_um: float) -> str:
 def overlength_id(reference_height_mm: float) -> str:
     """Path and wildcard id of a reference height in mm, such as ``h170mm`` or ``h167p5mm``."""
     return f"h{_plain(reference_height_mm)}mm"
+
+
+STOP_MIN = 0.2
+"""Least distance of the rings on the way, over the gap."""
 
 
 @dataclass(frozen=True)
@@ -117,6 +122,9 @@ class StudyConfig(Section):
     )
     mesh: Mesh = Field(default_factory=Mesh, description="Discretisation.")
     relaxation: Relaxation = Field(default_factory=Relaxation, description="Dynamic relaxation.")
+    installation: Installation = Field(
+        default_factory=Installation, description="How the foil is fitted."
+    )
     method: Method = Field(default_factory=Method, description="Strategies of crumpling.")
     stiffness: Stiffness = Field(default_factory=Stiffness, description="Static stiffness.")
     dynamics: Dynamics = Field(default_factory=Dynamics, description="Dynamic stiffness.")
@@ -173,6 +181,7 @@ class StudyConfig(Section):
         problems = list(self._height_problems()) or list(mesh_problems(self.mesh, self._mesh_use()))
         problems += self._size_problems()
         problems += self._thickness_problems()
+        problems += self._installation_problems()
         problems += _duplicates("sweep.thickness_um", self.sweep.thickness_um, thickness_id)
         if self.sweep.reference_height_mm is not None:
             problems += _duplicates(
@@ -204,6 +213,32 @@ class StudyConfig(Section):
                     f"sweep.overlength_percent[{i}] is {percent:g} %, which makes a height of "
                     f"{height:g} mm over sheet.gap_height_mm ({gap:g} mm), out of range; keep it "
                     f"to {HEIGHT_MAX_MM:g} mm, and check that the gap is in mm."
+                )
+
+    def _installation_problems(self) -> Iterator[str]:
+        stops, path = self.installation.stops_percent, self.method.path
+        if stops and path != "installation":
+            yield (
+                f"installation.stops_percent is given, but method.path is {path}, which has no "
+                "stops; set method.path: installation, or remove them."
+            )
+        elif path == "installation" and not stops:
+            yield (
+                "method.path is installation, but installation.stops_percent is not given; give "
+                "stops such as [125], or remove method.path."
+            )
+        gap = self.sheet.gap_height_mm
+        for i, percent in enumerate(stops):
+            distances = [
+                height - percent / 100 * (height - gap) for height in self.reference_heights_mm
+            ]
+            lowest, highest = min(distances), max(distances)
+            if lowest < STOP_MIN * gap or percent < 0:
+                distance = highest if percent < 0 else lowest
+                yield (
+                    f"installation.stops_percent[{i}] is {percent:g} %, with rings "
+                    f"{distance:.3g} mm apart; keep them between {STOP_MIN * gap:.3g} mm and the "
+                    "height of the cylinder."
                 )
 
     def _size_problems(self) -> Iterator[str]:
@@ -334,6 +369,7 @@ class StudyConfig(Section):
             imperfection=self.imperfection,
             mesh=self.mesh_of(cell.thickness_um),
             relaxation=self.relaxation_of(cell.thickness_um),
+            installation=self.installation,
             method=self.method,
             thickness_um=cell.thickness_um,
             reference_height_mm=cell.reference_height_mm,

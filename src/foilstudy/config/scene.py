@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from foilstudy.config.mesh import Mesh as MeshSection
 from foilstudy.config.sections import Dynamics
 from foilstudy.config.tasks import CrumpleTask
@@ -47,6 +49,9 @@ def method_of(task: CrumpleTask) -> Method:
         settling,
         relaxation.check_interval,
     )
+    if task.installation.stops_percent:
+        stages = tuple(each / 100 for each in task.installation.stops_percent)
+        path = replace(path, stages=stages)
     return Method(path, STRESS_REMOVALS[method.stress_removal]())
 
 

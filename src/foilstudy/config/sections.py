@@ -322,6 +322,20 @@ class Imperfection(Section):
         return self
 
 
+class Installation(Section):
+    """How the foil is fitted: where the top ring stops before it comes to the gap."""
+
+    stops_percent: tuple[float, ...] = unit_field(
+        "% of the shortening",
+        "Stops of the top ring before the gap, in turn, in per cent of the way that closes it: "
+        "`[125]` pushes a quarter further and pulls back, `[100, 105, 95]` cycles about the gap. "
+        "The foil comes near to rest at each. Needs `method.path: installation`.",
+        (),
+        max_length=50,
+        strict=False,
+    )
+
+
 class Relaxation(Section):
     """Dynamic relaxation: ramp of the moving ring, then relaxation to equilibrium."""
 

@@ -13,6 +13,7 @@ from .sections import (
     Dynamics,
     Height,
     Imperfection,
+    Installation,
     Material,
     Method,
     Relaxation,
@@ -44,6 +45,7 @@ class CrumpleTask(_Task):
     imperfection: Imperfection
     mesh: Mesh
     relaxation: Relaxation
+    installation: Installation
     method: Method
 
 

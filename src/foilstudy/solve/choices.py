@@ -100,6 +100,10 @@ PATHS = Registry(
                 "sign of it; use relaxation"
             ),
         ),
+        "installation": Choice(
+            "solve.paths.installation:InstallationPath",
+            "the same by the stops of `installation`, as a foil is fitted",
+        ),
         "newton": Choice(
             "solve.paths.newton:NewtonPath",
             "equilibria at growing displacement by plain Newton; ends at the first buckling",

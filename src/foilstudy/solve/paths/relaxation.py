@@ -53,12 +53,12 @@ class RelaxationPath:
         with measured() as relaxing:
             relaxed = relax(problem, motion, self._ramp(shortening), self._rule())
         if relaxed.status == "diverged":
-            return _diverged(relaxed, {"relaxing": relaxing})
+            return ended(relaxed, {"relaxing": relaxing})
         left = settling.relaxation_steps_max - (relaxed.steps - self.ramp_steps)
         settling = replace(settling, relaxation_steps_max=left)
         with measured() as cost:
             settled = settle(problem, motion, relaxed.points, settling)
-        return _arrived(problem, settled, {"relaxing": relaxing, "settling": cost}, relaxed)
+        return arrived(problem, settled, {"relaxing": relaxing, "settling": cost}, relaxed)
 
     def push(self, problem: Problem, shortening: float) -> Arrival:
         """See `Path`."""
@@ -71,11 +71,8 @@ class RelaxationPath:
     def _relaxed(self, problem: Problem, ramp: Ramp, points: np.ndarray | None) -> Arrival:
         with measured() as cost:
             relaxed = relax(problem, self.scheme.start(problem), ramp, self._rule(), points)
-        return Arrival(
-            relaxed.status, relaxed.message, relaxed.points, relaxed.residual, None,
-            relaxed.steps, 0, 0, relaxed.history, {"relaxing": cost},
-            problem.state if problem.has_memory else (),
-        )  # fmt: skip
+        state = problem.state if problem.has_memory else ()
+        return replace(ended(relaxed, {"relaxing": cost}), state=state)
 
     def _ramp(self, shortening: float) -> Ramp:
         return Ramp(shortening, self.ramp_steps)
@@ -90,22 +87,24 @@ class RelaxationPath:
         """See `Path`."""
         with measured() as cost:
             settled = settle(problem, self.scheme.start(problem), points, self.settling)
-        return _arrived(problem, settled, {"settling": cost})
+        return arrived(problem, settled, {"settling": cost})
 
 
-def _diverged(relaxed: RelaxationResult, costs: Mapping[str, Cost]) -> Arrival:
+def ended(relaxed: RelaxationResult, costs: Mapping[str, Cost]) -> Arrival:
+    """Where a relaxation has ended, without settling."""
     return Arrival(
         relaxed.status, relaxed.message, relaxed.points, relaxed.residual, None,
         relaxed.steps, 0, 0, relaxed.history, costs,
     )  # fmt: skip
 
 
-def _arrived(
+def arrived(
     problem: Problem,
     settled: SettleResult,
     costs: Mapping[str, Cost],
     relaxed: RelaxationResult | None = None,
 ) -> Arrival:
+    """Where settling has ended, after a relaxation."""
     before = relaxed.steps if relaxed else 0
     return Arrival(
         settled.status, settled.message, settled.points, settled.residual,

@@ -190,7 +190,12 @@ def relax(
     free = (RING_ROWS, rows - RING_ROWS)
     share = np.zeros(rows)
     if ramp.spread:
-        share = np.clip(points[2].mean(axis=1) / (problem.patch.size_along * (rows - 2)), 0.0, 1.0)
+        height = (
+            problem.patch.size_along * (rows - 2)
+            if start is None
+            else points[2, -RING_ROWS:].mean()
+        )
+        share = np.clip(points[2].mean(axis=1) / height, 0.0, 1.0)
     share[:RING_ROWS], share[-RING_ROWS:] = 0.0, 1.0
     force = np.empty_like(points)
     momentum = np.zeros((3, free[1] - free[0], points.shape[2]))
