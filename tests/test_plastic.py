@@ -8,8 +8,11 @@ from conftest import FEP, FOIL, rotation
 from scipy.integrate import solve_ivp
 from wild_sheets import Foil, extrapolated, flat, unflat, wild_open_sheet, wild_shape, wild_sheet
 
+from foilstudy.base.record import read_record
+from foilstudy.config import load_config
 from foilstudy.measure.stiffness import transfer_stiffness
-from foilstudy.measure.stiffness.stress_removal import JohnsonCook, Reset, ZerilliArmstrong
+from foilstudy.measure.stiffness.stress_flow import JohnsonCook, ZerilliArmstrong
+from foilstudy.measure.stiffness.stress_removal import Reset
 from foilstudy.model.foil import Imperfection
 from foilstudy.model.patch import RING_ROWS, Patch, fitted_control_points
 from foilstudy.model.shell.elements import sampling
@@ -21,8 +24,10 @@ from foilstudy.model.shell.material.return_map import Flow, evolve, increment
 from foilstudy.model.shell.section import Section
 from foilstudy.model.shell.shell import Shell
 from foilstudy.pipeline.crumple import crumple
+from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.solve.paths.relaxation import RelaxationPath
+from foilstudy.study.sweep.crumple import crumple_job
 
 either_patch = pytest.mark.parametrize("make", [wild_sheet, wild_open_sheet])
 either_element = pytest.mark.parametrize(
@@ -281,7 +286,7 @@ def test_a_plastic_crumple_rests_at_its_own_state(yielded):
 def test_the_tangent_is_the_unloading_secant(yielded):
     """Pulled apart a little, the ring's force falls by the stiffness of the settled state."""
     problem, points = yielded.problem(), yielded.points.copy()
-    axial, _ = yielded.true_stiffness()
+    axial, _ = yielded.prestressed_stiffness()
     pull = 20e-6
     before, after = np.empty_like(points), np.empty_like(points)
     problem.force(points, before)
@@ -291,6 +296,47 @@ def test_the_tangent_is_the_unloading_secant(yielded):
     problem.force(settled.points, after)
     secant = (after - before)[2, -RING_ROWS:].sum() / pull
     assert secant == pytest.approx(axial, rel=0.02)
+
+
+def test_a_record_keeps_the_state(tmp_path):
+    """From a configuration to a record and back, and on to a finer mesh."""
+    study = load_config(
+        {
+            "material": {"law": "plastic", "hardening_mpa": 50},
+            "sweep": {"thickness_um": [500], "reference_height_mm": [170]},
+            "mesh": {"element_size_mm": 20},
+            "relaxation": {"ramp_steps": 400},
+        }
+    )
+    crumple_job(study.crumple_task(study.cells()[0]), tmp_path / "crumple.nc")
+    values, attributes = read_record(tmp_path / "crumple.nc")
+    assert attributes["status"] == "converged", attributes["message"]
+    back = Crumpled.recorded(tmp_path / "crumple.nc")
+    problem = back.problem()
+    term, state = problem.terms[1], problem.state[1]
+    assert term.law.hardening == 50e6
+    assert values["plastic_share"] == term.plastic_share(state)
+    assert values["plastic_share"] < values["beyond_yield_share"]
+    assert values["plastic_strain_max"] == state.accumulated.max() > 0.01
+    assert values["dissipated_work"] == term.dissipated(state) > 0
+    assert values["plastic_relief_energy"] < 0
+    # in equilibrium as it was written
+    assert back.settled().arrival.hessians == 0
+    finer = back.refined()
+    split = finer.arrival.state[1]
+    assert np.array_equal(split.layers[::2, :, :, ::2], state.layers)
+    assert np.array_equal(split.layers[1::2, :, :, 1::2], state.layers)
+    dissipated = finer.problem().terms[1].dissipated(split)
+    assert dissipated == pytest.approx(term.dissipated(state), rel=5e-3)
+    settled = finer.settled()
+    assert settled.status == "converged", settled.message
+    assert settled.problem().terms[1].dissipated(settled.arrival.state[1]) > dissipated
+
+
+def test_hardening_without_yield_is_a_slip():
+    grid = {"thickness_um": [500], "reference_height_mm": [170]}
+    with pytest.raises(ValueError, match="hardening_mpa is given, but material.law is elastic"):
+        load_config({"material": {"hardening_mpa": 50}, "sweep": grid})
 
 
 # --- stress removals by flow ---------------------------------------------------------------------

@@ -18,6 +18,7 @@ def material_of(section: MaterialSection) -> Material:
         yield_stress=section.yield_stress_mpa * 1e6,
         name=section.name,
         law=section.law,
+        hardening=None if section.hardening_mpa is None else section.hardening_mpa * 1e6,
     )
 
 

@@ -136,10 +136,28 @@ class Material(Section):
     density_kg_m3: float = unit_field("kg/m3", "Density.", ge=0.1, le=30_000)
     yield_stress_mpa: float = unit_field(
         "MPa",
-        "Uniaxial yield stress; only for the reported share of the surface beyond yield.",
+        "Uniaxial yield stress: of the plastic law, and with the elastic one only for the reported "
+        "share of the surface beyond yield.",
         ge=1e-6,
         le=1e5,
     )
+    hardening_mpa: float | None = unit_field(
+        "MPa",
+        "Slope of the stress over the plastic strain; only with `law: plastic`. Left out, it is a "
+        "twentieth of Young's modulus. With less, folds may collapse and never come to rest.",
+        None,
+        ge=0,
+        le=2e6,
+    )
+
+    @model_validator(mode="after")
+    def _hardening_only_where_it_counts(self) -> Material:
+        if self.hardening_mpa is not None and self.law == "elastic":
+            raise ValueError(
+                "material.hardening_mpa is given, but material.law is elastic, which never yields; "
+                "remove it, or set material.law: plastic."
+            )
+        return self
 
     @model_validator(mode="before")
     @classmethod

@@ -26,11 +26,11 @@ STRESS_REMOVALS = Registry(
             "the crumpled shape is taken as stress-free, exactly",
         ),
         "johnson_cook": Choice(
-            "measure.stiffness.stress_removal:JohnsonCook",
+            "measure.stiffness.stress_flow:JohnsonCook",
             "rate-dependent flow in the held shape, as published; leaves residual stress",
         ),
         "zerilli_armstrong": Choice(
-            "measure.stiffness.stress_removal:ZerilliArmstrong",
+            "measure.stiffness.stress_flow:ZerilliArmstrong",
             "flow by temperature in the held shape, as published for solids; the same residue",
         ),
     },

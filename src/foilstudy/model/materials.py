@@ -1,7 +1,7 @@
 """Isotropic foil materials; those known by name stand in `material_table`.
 
-The yield stress bounds the linear-elastic model (the share of the surface beyond yield); it never
-enters the equilibrium.
+The yield stress bounds the linear-elastic model (the share of the surface beyond yield); it enters
+the equilibrium of the plastic law alone.
 """
 
 from __future__ import annotations
@@ -28,11 +28,13 @@ class Material:
     density : float
         kg/m3.
     yield_stress : float
-        Pa; only used to report which share of the surface a linear elastic model overloads.
+        Pa; for the plastic law, and for the share of the surface that the elastic one overloads.
     name : str
         For people; it decides nothing.
     law : str
         A name of `foilstudy.model.shell.material.LAWS`.
+    hardening : float or None
+        Slope of stress over plastic strain, Pa, for the plastic law; None: what that takes for it.
     """
 
     youngs_modulus: float
@@ -41,12 +43,15 @@ class Material:
     yield_stress: float
     name: str = ""
     law: str = "elastic"
+    hardening: float | None = None
 
     def __post_init__(self):
         require_number("Young's modulus of a material", self.youngs_modulus, "Pa", above=0)
         require_number("Poisson's ratio of a material", self.poisson_ratio, above=-1, most=0.5)
         require_number("density of a material", self.density, "kg/m3", above=0)
         require_number("yield stress of a material", self.yield_stress, "Pa", above=0)
+        if self.hardening is not None:
+            require_number("hardening of a material", self.hardening, "Pa", least=0)
 
     def __repr__(self) -> str:
         return (

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Self
@@ -13,7 +14,7 @@ from foilstudy.base.outcome import USABLE
 from foilstudy.base.record import read_record
 from foilstudy.base.spec import dumped, loaded
 from foilstudy.measure.dynamics import DynamicsOptions
-from foilstudy.measure.stiffness import prestressed_stiffness, tangent_stiffness
+from foilstudy.measure.stiffness import prestressed_stiffness
 from foilstudy.measure.stiffness.stress_removal import Relieved, StressRemoval
 from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.model.patch import Patch
@@ -120,6 +121,27 @@ class Crumpled(Shape):
             problem.state = self.arrival.state
         return problem
 
+    def refined(self) -> Self:
+        """The same shape with every element split in four, at the same state.
+
+        Raises
+        ------
+        Refusal
+            If a term of the problem has a memory that cannot be split.
+        """
+        refined = super().refined()
+        if not (self.arrival and self.arrival.state):
+            return refined
+        return refined._remembering(self.problem().split())
+
+    def _remembering(self, values: Mapping[str, np.ndarray]) -> Self:
+        """At the state that arrays tell of, where a term has a memory that lasts."""
+        problem = Shape.problem(self)
+        if not problem.has_memory:
+            return self
+        problem.restore(values)
+        return replace(self, arrival=replace(self.arrival, state=problem.state))
+
     def settled(self, method: Method | None = None) -> Self:
         """The nearest stable equilibrium, for a shape that was refined or came from elsewhere."""
         path = (method or self.method).path
@@ -149,25 +171,15 @@ class Crumpled(Shape):
     def prestressed_stiffness(self) -> np.ndarray:
         """Axial and radial stiffness with the stress left in, other motions held, shape (2,), N/m.
 
-        Raises
-        ------
-        SolveError
-            If the tangent with held rings is singular.
-        """
-        return prestressed_stiffness(self.stressed, self.points)
-
-    def true_stiffness(self) -> np.ndarray:
-        """The same with all terms of the problem at their own state, shape (2,), N/m.
-
-        That of unloading where the material is plastic. Without a memory it is the pre-stressed
-        one.
+        That of small motions about the state in which the foil has arrived; of a plastic foil it
+        is the stiffness of unloading, with its true stresses.
 
         Raises
         ------
         SolveError
             If the tangent with held rings is singular.
         """
-        return tangent_stiffness(self.problem().tangent(self.points), self.patch, self.points)
+        return prestressed_stiffness(self.problem(), self.points)
 
     def vibration(self, options: DynamicsOptions | None = None) -> Vibration:
         """Dynamic stiffness, eigenfrequencies and mode shapes of the stress-free shape.
@@ -243,7 +255,8 @@ class Crumpled(Shape):
             float(values["equilibrium_residual"]), _count(values["negative_eigenvalues"]),
             int(values["steps"]), int(values["newton_steps"]), int(values["hessians"]), None,
         )  # fmt: skip
-        return cls(foil, patch, points, reference, recipe.mesh.element_at_work(), recipe, arrival)
+        element = recipe.mesh.element_at_work()
+        return cls(foil, patch, points, reference, element, recipe, arrival)._remembering(values)
 
 
 _RECIPE = {"mesh": Mesh, "imperfection": Imperfection, "method": Method}

@@ -33,11 +33,11 @@ def prestressed_structure(shape: Shape) -> Structure:
     SolveError
         If the tangent with held rings is singular.
     """
-    shell, points = shape.stressed, shape.points
+    problem, points = shape.problem(), shape.points
     rings = Rings.of(shape.patch, points)
-    stiffness = InterfaceSystem.split(shell.tangent(points), rings)
+    stiffness = InterfaceSystem.split(problem.tangent(points), rings)
     force = np.empty_like(points)
-    shell.force(points, force)
+    problem.force(points, force)
     for ring, rows in enumerate((slice(0, RING_ROWS), slice(-RING_ROWS, None))):
         turning = slice(6 * ring + 3, 6 * ring + 6)
         stiffness.interface[turning, turning] += _turning_stiffness(points[:, rows], force[:, rows])

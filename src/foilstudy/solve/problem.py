@@ -9,17 +9,19 @@ takes the last of them back.
 
 from __future__ import annotations
 
-from typing import Any, Protocol
+from collections.abc import Mapping
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 import scipy.sparse as sparse
 
+from foilstudy.base.errors import Refusal
 from foilstudy.linalg import SymmetricBlocks
 from foilstudy.model.patch import RING_ROWS, Patch
 from foilstudy.model.shell.held import held_blocks
 from foilstudy.model.shell.shell import Shell
 
-__all__ = ["Problem", "Term"]
+__all__ = ["Lasting", "Problem", "Term"]
 
 
 class Term(Protocol):
@@ -60,6 +62,27 @@ class Term(Protocol):
 
     def evolved(self, points: np.ndarray, state: Any) -> Any:
         """State once the shape has been reached from `state`."""
+        ...
+
+
+@runtime_checkable
+class Lasting(Term, Protocol):
+    """A term whose state can be kept in a record and taken to a finer mesh."""
+
+    def numbers(self, state: Any) -> dict[str, float]:
+        """What is worth knowing of the state, by the names of quantities."""
+        ...
+
+    def recorded(self, state: Any) -> dict[str, np.ndarray]:
+        """The state as arrays, by the names of quantities."""
+        ...
+
+    def split(self, state: Any) -> dict[str, np.ndarray]:
+        """The same with every element split in four."""
+        ...
+
+    def restored(self, values: Mapping[str, np.ndarray]) -> Any:
+        """The state that arrays tell of, on this term's own mesh."""
         ...
 
 
@@ -141,6 +164,48 @@ class Problem:
             return held_blocks(self.patch, self.shell.tangent_blocks(points))
         owned = RING_ROWS * 3 * self.patch.columns
         return self.tangent(points)[owned:-owned, owned:-owned].tocsr()
+
+    def numbers(self) -> dict[str, float]:
+        """What terms whose memory lasts say of their state, by the names of quantities."""
+        values: dict[str, float] = {}
+        for term, state in zip(self.terms, self.state, strict=True):
+            if isinstance(term, Lasting):
+                values |= term.numbers(state)
+        return values
+
+    def recorded(self) -> dict[str, np.ndarray]:
+        """The state of terms whose memory lasts, as arrays by the names of quantities."""
+        values: dict[str, np.ndarray] = {}
+        for term, state in zip(self.terms, self.state, strict=True):
+            if isinstance(term, Lasting):
+                values |= term.recorded(state)
+        return values
+
+    def split(self) -> dict[str, np.ndarray]:
+        """The same with every element split in four.
+
+        Raises
+        ------
+        Refusal
+            If a term with a memory does not know how.
+        """
+        values: dict[str, np.ndarray] = {}
+        for term, state in zip(self.terms, self.state, strict=True):
+            if isinstance(term, Lasting):
+                values |= term.split(state)
+            elif state is not None:
+                raise Refusal(
+                    f"the memory of {type(term).__name__} cannot be taken to a finer mesh; crumple "
+                    "on the mesh that is wanted."
+                )
+        return values
+
+    def restore(self, values: Mapping[str, np.ndarray]) -> None:
+        """Take the state of terms whose memory lasts from arrays."""
+        self.state = tuple(
+            term.restored(values) if isinstance(term, Lasting) else state
+            for term, state in zip(self.terms, self.state, strict=True)
+        )
 
     def commit(self, points: np.ndarray) -> None:
         """Let every term take note that the shape has been reached."""

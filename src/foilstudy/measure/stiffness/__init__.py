@@ -3,7 +3,7 @@
 from foilstudy.measure.stiffness.condensation import InterfaceSystem, StaticCondensation, condense
 from foilstudy.measure.stiffness.directional import fixed_stiffness, free_stiffness
 from foilstudy.measure.stiffness.mesh_error import limit_by_need, mesh_limit
-from foilstudy.measure.stiffness.prestressed import prestressed_stiffness, tangent_stiffness
+from foilstudy.measure.stiffness.prestressed import prestressed_stiffness
 from foilstudy.measure.stiffness.rings import DOF_NAMES, Rings
 from foilstudy.measure.stiffness.transfer import transfer_stiffness
 
@@ -18,6 +18,5 @@ __all__ = [
     "limit_by_need",
     "mesh_limit",
     "prestressed_stiffness",
-    "tangent_stiffness",
     "transfer_stiffness",
 ]

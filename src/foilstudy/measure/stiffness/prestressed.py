@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Protocol
+
 import numpy as np
 import scipy.sparse as sparse
 
@@ -9,15 +11,29 @@ from foilstudy.measure.stiffness.condensation import InterfaceSystem, condense
 from foilstudy.measure.stiffness.directional import fixed_stiffness
 from foilstudy.measure.stiffness.rings import Rings
 from foilstudy.model.patch import Patch
-from foilstudy.model.shell.shell import Shell
 
 
-def prestressed_stiffness(sheet: Shell, points: np.ndarray) -> np.ndarray:
+class Stressed(Protocol):
+    """What has a tangent in any shape: a `Shell`, or a problem at its state.
+
+    Attributes
+    ----------
+    patch : Patch
+    """
+
+    patch: Patch
+
+    def tangent(self, points: np.ndarray) -> sparse.csr_matrix:
+        """See `Shell.tangent`."""
+        ...
+
+
+def prestressed_stiffness(sheet: Stressed, points: np.ndarray) -> np.ndarray:
     """Axial and radial stiffness of the consistent tangent at an equilibrium, other motions held.
 
     Parameters
     ----------
-    sheet : Shell
+    sheet : Stressed
     points : ndarray, shape (3, rows, columns)
         Control points at the equilibrium, m.
 
@@ -31,10 +47,6 @@ def prestressed_stiffness(sheet: Shell, points: np.ndarray) -> np.ndarray:
     SolveError
         If the tangent with held rings is singular.
     """
-    return tangent_stiffness(sheet.tangent(points), sheet.patch, points)
-
-
-def tangent_stiffness(tangent: sparse.csr_matrix, patch: Patch, points: np.ndarray) -> np.ndarray:
-    """The same of any tangent on all control points, such as that of a problem."""
-    system = InterfaceSystem.split(tangent, Rings.of(patch, points))
+    tangent = sheet.tangent(points)
+    system = InterfaceSystem.split(tangent, Rings.of(sheet.patch, points))
     return fixed_stiffness(condense(system).stiffness)

@@ -74,6 +74,7 @@ class RelaxationPath:
         return Arrival(
             relaxed.status, relaxed.message, relaxed.points, relaxed.residual, None,
             relaxed.steps, 0, 0, relaxed.history, {"relaxing": cost},
+            problem.state if problem.has_memory else (),
         )  # fmt: skip
 
     def _rule(self) -> StoppingRule:

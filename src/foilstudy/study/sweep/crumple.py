@@ -89,6 +89,7 @@ def _shape(crumpled: Crumpled) -> dict[str, np.ndarray]:
         "surface": surface,
         "reference_surface": reference,
         "radial_displacement": _radial_displacement(surface, reference),
+        **crumpled.problem().recorded(),
     }
 
 
@@ -118,4 +119,5 @@ def _numbers(crumpled: Crumpled) -> dict[str, float]:
         "fold_angle": fold_angle(surface),
         "beyond_yield_share": beyond_yield_share(crumpled.stressed, points),
         "self_crossing_share": self_crossing_share(surface),
+        **problem.numbers(),
     }

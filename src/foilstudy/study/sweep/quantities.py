@@ -31,6 +31,8 @@ class Declared:
         Where the cube has another unit.
     cube_scale : float
         From the one to the other.
+    law : str
+        The material law without which there is none; empty: any.
     """
 
     units: str
@@ -39,6 +41,7 @@ class Declared:
     in_cube: bool = True
     cube_units: str = ""
     cube_scale: float = 1.0
+    law: str = ""
 
 
 def _length(words: str) -> Declared:
@@ -84,6 +87,9 @@ QUANTITIES: dict[str, Declared] = {
     "membrane_energy": Declared("J", "membrane energy"),
     "bending_energy": Declared("J", "bending energy"),
     "stabilisation_energy": Declared("J", "stabilisation energy"),
+    "plastic_relief_energy": Declared(
+        "J", "what plastic strains take off these three: a negative energy", law="plastic"
+    ),
     "reaction_force": Declared("N", "axial force of the crumpled foil on the top ring"),
     "radial_displacement_min": _length("smallest radial displacement"),
     "radial_displacement_max": _length("largest radial displacement"),
@@ -106,6 +112,9 @@ QUANTITIES: dict[str, Declared] = {
         cube_scale=180 / np.pi,
     ),
     "beyond_yield_share": Declared("1", "share of the surface beyond the yield stress"),
+    "plastic_share": Declared("1", "share of the volume that has yielded", law="plastic"),
+    "plastic_strain_max": Declared("1", "largest accumulated plastic strain", law="plastic"),
+    "dissipated_work": Declared("J", "work that plastic flow has used up", law="plastic"),
     "self_crossing_share": Declared("1", "share of the surface crossed by another part"),
     "mode_count": Declared(
         "1", "eigenfrequencies, rings clamped, below a frequency", ("frequency",)
@@ -134,6 +143,11 @@ QUANTITIES: dict[str, Declared] = {
     "surface": _record_only("m", "surface points at the knots, crumpled", _NODE),
     "reference_surface": _record_only("m", "surface points at the knots, stress-free", _NODE),
     "radial_displacement": _record_only("m", "radial displacement", _NODE[1:]),
+    "plastic_strain": _record_only(
+        "1",
+        "plastic strains 11, 22, 2 12 of the layers in Cartesian axes, and the accumulated one",
+        ("element_row", "layer", "plastic_component", "element_column"),
+    ),
     "history_step": _record_only("1", "pseudo-time step", _HISTORY),
     "history_height": _record_only("m", "height between the rings", _HISTORY),
     "history_reaction_force": _record_only(

@@ -61,7 +61,7 @@ def _relaxed(crumpled: Crumpled, refinements: int) -> Outcome:
         "prestressed_stiffness_converged": prestressed,
         "prestressed_stiffness_mesh_error": step,
         "refined_static_stiffness": crumpled.stiffness(),
-        "refined_strain_energy": crumpled.energies().total,
+        "refined_strain_energy": crumpled.problem().value(crumpled.points),
         "refined_element_size": max(crumpled.patch.size_around, crumpled.patch.size_along),
         "refined_residual": arrival.residual,
         "refined_negative_eigenvalues": float(arrival.negative_eigenvalues),

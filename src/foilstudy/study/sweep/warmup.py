@@ -8,7 +8,9 @@ from pathlib import Path
 
 from foilstudy.base.outcome import USABLE
 from foilstudy.config import load_config
+from foilstudy.measure.choices import STRESS_REMOVALS
 from foilstudy.model.shell.elements import ELEMENTS
+from foilstudy.model.shell.material import LAWS
 from foilstudy.solve.choices import DAMPINGS, MASSES, PATHS, SEARCHES
 
 
@@ -54,7 +56,14 @@ def compile_kernels() -> bool:
 def _variants() -> Iterator[dict]:
     """Sections that choose every element, and every strategy that is not the default."""
     yield from ({"mesh": {"element": name}} for name in ELEMENTS)
-    registries = {"path": PATHS, "mass": MASSES, "damping": DAMPINGS, "search": SEARCHES}
+    yield from ({"material": {"law": name}} for name in list(LAWS)[1:])
+    registries = {
+        "path": PATHS,
+        "mass": MASSES,
+        "damping": DAMPINGS,
+        "search": SEARCHES,
+        "stress_removal": STRESS_REMOVALS,
+    }
     for key, registry in registries.items():
         yield from ({"method": {key: name}} for name in list(registry)[1:])
 

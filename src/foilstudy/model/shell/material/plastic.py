@@ -7,6 +7,7 @@ in the strains. What the strains of one element differ by stays elastic.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -62,7 +63,9 @@ class Plastic(Elastic):
     def __post_init__(self):
         super().__post_init__()
         if self.hardening is None:
-            object.__setattr__(self, "hardening", HARDENING * self.material.youngs_modulus)
+            made = self.material
+            default = HARDENING * made.youngs_modulus if made.hardening is None else made.hardening
+            object.__setattr__(self, "hardening", default)
 
     @property
     def flow(self) -> Flow:
@@ -136,6 +139,29 @@ class PlasticTerm:
         none = np.zeros((along, 6, around))
         return PlasticState(np.zeros((along, self.law.layers, 4, around)), Inelastic(none, none), 0)
 
+    def numbers(self, state: PlasticState) -> dict[str, float]:
+        """See `solve.problem.Lasting`: what has yielded takes the place of what would have."""
+        return {
+            "beyond_yield_share": self.yielded_share(state),
+            "plastic_share": self.plastic_share(state),
+            "plastic_strain_max": float(state.accumulated.max()),
+            "dissipated_work": self.dissipated(state),
+        }
+
+    def recorded(self, state: PlasticState) -> dict[str, np.ndarray]:
+        """See `solve.problem.Lasting`."""
+        return {"plastic_strain": state.layers}
+
+    def split(self, state: PlasticState) -> dict[str, np.ndarray]:
+        """See `solve.problem.Lasting`: each quarter has the plastic strains of the whole."""
+        return {"plastic_strain": state.layers.repeat(2, axis=0).repeat(2, axis=3)}
+
+    def restored(self, values: Mapping[str, np.ndarray]) -> PlasticState:
+        """See `solve.problem.Lasting`."""
+        rigid = self.law.flow._replace(yield_stress=np.inf)
+        layers = np.ascontiguousarray(values["plastic_strain"])
+        return self._flowed(np.zeros_like(self._section.stiffness), layers, rigid)
+
     def force(self, points: np.ndarray, out: np.ndarray, state: PlasticState) -> np.ndarray:
         """See `solve.problem.Term`."""
         return np.array([self._strains.force(points, state.inelastic, out) + state.energy])
@@ -150,12 +176,11 @@ class PlasticTerm:
 
     def evolved(self, points: np.ndarray, state: PlasticState) -> PlasticState:
         """See `solve.problem.Term`: every layer back on its yield surface."""
-        layers = np.empty_like(state.layers)
-        inelastic = np.empty_like(state.inelastic.strains)
-        strains = self._strains.strains(points)
-        energy = evolve(
-            strains, self._frame, self.heights, self.law.flow, state.layers, layers, inelastic
-        )
+        return self._flowed(self._strains.strains(points), state.layers, self.law.flow)
+
+    def _flowed(self, strains: np.ndarray, before: np.ndarray, flow: Flow) -> PlasticState:
+        layers, inelastic = np.empty_like(before), np.empty_like(strains)
+        energy = evolve(strains, self._frame, self.heights, flow, before, layers, inelastic)
         return PlasticState(layers, Inelastic.of(self._section, inelastic), energy)
 
     def stresses(self, points: np.ndarray, state: PlasticState) -> np.ndarray:
@@ -185,6 +210,10 @@ class PlasticTerm:
     def plastic_share(self, state: PlasticState) -> float:
         """Share of the volume that has yielded."""
         return float(np.average((state.accumulated > 0).mean(axis=1), weights=self._frame[:, 6]))
+
+    def yielded_share(self, state: PlasticState) -> float:
+        """Share of the stress-free area under which any layer has yielded."""
+        return float(np.average((state.accumulated > 0).any(axis=1), weights=self._frame[:, 6]))
 
     def _turned(self, covariant: np.ndarray) -> np.ndarray:
         """Strains (elements_along, 3, elements_around) in Cartesian axes."""
