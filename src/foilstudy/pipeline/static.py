@@ -6,7 +6,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from foilstudy.measure.stiffness import limit_by_need, mesh_limit, transfer_stiffness
+from foilstudy.measure.stiffness import (
+    InterfaceSystem,
+    Rings,
+    condense,
+    fixed_stiffness,
+    limit_by_need,
+    mesh_limit,
+    transfer_stiffness,
+)
+from foilstudy.measure.stiffness.stress_removal import Residual
 from foilstudy.model.shell.elements.sampled import STAGGERED
 from foilstudy.pipeline.shape import Shape
 
@@ -50,7 +59,12 @@ def stress_free_stiffness(shape: Shape) -> np.ndarray:
     SolveError
         If it is singular.
     """
-    return transfer_stiffness(shape.relieved())
+    relieved = shape.relieved()
+    if not isinstance(relieved, Residual):
+        return transfer_stiffness(relieved)
+    # what stress is left may make the stiffness indefinite, and the blocks of a definite one fail
+    system = InterfaceSystem.split(relieved.tangent(), Rings.of(shape.patch, shape.points))
+    return fixed_stiffness(condense(system).stiffness)
 
 
 def mesh_limit_of(shape: Shape, refinements: int, coarsest: np.ndarray | None = None) -> MeshLimit:

@@ -3,25 +3,29 @@
 from __future__ import annotations
 
 import numpy as np
+import scipy.sparse as sparse
 
 from foilstudy.measure.dynamics.structure import Structure
 from foilstudy.measure.stiffness import InterfaceSystem, Rings
 from foilstudy.measure.stiffness.rings import interface_rigid_modes
+from foilstudy.measure.stiffness.stress_removal import Residual
 from foilstudy.model.patch import RING_ROWS
 from foilstudy.model.shell.tangent import mass_matrix
 from foilstudy.pipeline.shape import Shape
 
 
 def stress_free_structure(shape: Shape) -> Structure:
-    """The crumpled shape without its stresses, as published.
+    """The crumpled shape without its stresses, but for those that their removal has left.
 
     Raises
     ------
     SolveError
         If the stiffness with held rings is singular.
     """
-    matrix = shape.relieved().tangent()
-    stiffness = InterfaceSystem.split(matrix, Rings.of(shape.patch, shape.points))
+    relieved = shape.relieved()
+    if isinstance(relieved, Residual):
+        return _stressed_structure(shape, relieved.tangent(), relieved.residual_force())
+    stiffness = InterfaceSystem.split(relieved.tangent(), Rings.of(shape.patch, shape.points))
     return Structure.assembled(stiffness, mass(shape), _rigid_motions(shape))
 
 
@@ -34,10 +38,15 @@ def prestressed_structure(shape: Shape) -> Structure:
         If the tangent with held rings is singular.
     """
     problem, points = shape.problem(), shape.points
-    rings = Rings.of(shape.patch, points)
-    stiffness = InterfaceSystem.split(problem.tangent(points), rings)
     force = np.empty_like(points)
     problem.force(points, force)
+    return _stressed_structure(shape, problem.tangent(points), force)
+
+
+def _stressed_structure(shape: Shape, tangent: sparse.csr_matrix, force: np.ndarray) -> Structure:
+    """With the tangent and the forces on all control points."""
+    points = shape.points
+    stiffness = InterfaceSystem.split(tangent, Rings.of(shape.patch, points))
     for ring, rows in enumerate((slice(0, RING_ROWS), slice(-RING_ROWS, None))):
         turning = slice(6 * ring + 3, 6 * ring + 6)
         stiffness.interface[turning, turning] += _turning_stiffness(points[:, rows], force[:, rows])

@@ -43,9 +43,17 @@ class FlowedShell:
 
     def residual_energy(self) -> float:
         """Elastic energy that has not flowed, J."""
-        out = np.empty_like(self._points)
-        left = self._shell.force(self._points, out).sum()
-        return float(left + self._term.force(self._points, out, self._state)[0])
+        return self._left()[0]
+
+    def residual_force(self) -> np.ndarray:
+        """See `Residual`."""
+        return self._left()[1]
+
+    def _left(self) -> tuple[float, np.ndarray]:
+        force, relief = np.empty_like(self._points), np.empty_like(self._points)
+        energy = self._shell.force(self._points, force).sum()
+        energy += self._term.force(self._points, relief, self._state).sum()
+        return float(energy), force + relief
 
     def tangent(self) -> sparse.csr_matrix:
         """See `Relieved`."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 import scipy.sparse as sparse
@@ -28,6 +28,15 @@ class Relieved(Protocol):
 
     def tangent_blocks(self) -> np.ndarray:
         """The same by control point and neighbour, see `Shell.tangent_blocks`."""
+        ...
+
+
+@runtime_checkable
+class Residual(Relieved, Protocol):
+    """What still has stress in it."""
+
+    def residual_force(self) -> np.ndarray:
+        """Of that stress on the control points, shape (3, rows, columns), N."""
         ...
 
 
