@@ -10,6 +10,7 @@ from wild_sheets import Foil, extrapolated, flat, unflat, wild_open_sheet, wild_
 
 from foilstudy.base.record import read_record
 from foilstudy.config import load_config
+from foilstudy.config.slips import likely_slips
 from foilstudy.measure.stiffness import fixed_stiffness
 from foilstudy.measure.stiffness.stress_flow import JohnsonCook, ZerilliArmstrong
 from foilstudy.measure.stiffness.stress_removal import Reset
@@ -338,6 +339,21 @@ def test_hardening_without_yield_is_a_slip():
     grid = {"thickness_um": [500], "reference_height_mm": [170]}
     with pytest.raises(ValueError, match="hardening_mpa is given, but material.law is elastic"):
         load_config({"material": {"hardening_mpa": 50}, "sweep": grid})
+
+
+def test_the_traps_of_plastic_foil_are_named():
+    grid = {"thickness_um": [500], "reference_height_mm": [170]}
+
+    def said(law, steps, **material):
+        ramp = {"ramp_steps": steps}
+        content = {"material": {"law": law, **material}, "sweep": grid, "relaxation": ramp}
+        return " ".join(likely_slips(load_config(content)))
+
+    assert not said("elastic", 500) and not said("plastic", 8000)
+    assert "yields by the hurry" in said("plastic", 500)
+    assert "fold flat" in said("plastic", 8000, hardening_mpa=0)
+    removal = {"method": {"stress_removal": "johnson_cook"}, "sweep": grid}
+    assert "leaves stress in the shape" in " ".join(likely_slips(load_config(removal)))
 
 
 # --- stress removals by flow ---------------------------------------------------------------------
