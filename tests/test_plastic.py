@@ -241,13 +241,28 @@ def test_energies_along_a_random_way():
             force, before = now, points
             assert term.dissipated(state) >= dissipated
             dissipated = term.dissipated(state)
-    flow, layers = term.law.flow, state.layers
-    p1, p2, p6 = layers[:, :, :3].transpose(2, 0, 1, 3)
-    kept = flow.kinematic * 2 / 3 * (p1**2 + p2**2 + p1 * p2 + 0.25 * p6**2)
-    volumes = shell.section.areas * shell.thickness
-    kept = np.sum(volumes * kept.mean(axis=1))
     assert dissipated > 0.3 * work
-    assert work == pytest.approx(energy + kept + dissipated, rel=1e-2)
+    assert work == pytest.approx(energy + term.spent(state), rel=1e-2)
+
+
+@either_element
+def test_the_force_of_a_step_is_the_derivative_of_energy_and_what_is_spent(element):
+    """Along with the flow: a minimum of both is an equilibrium at the state that it leads to."""
+    shell, term = plastic_sheet(wild_sheet, element)
+    start = term.evolved(wild_shape(shell, seed=8), term.start())
+    points, way = wild_shape(shell), np.random.default_rng(0).standard_normal(shell.patch.shape)
+
+    def value(step):
+        reached = points + step * way
+        state = term.evolved(reached, start)
+        return force_of(term, reached, state)[0] + term.spent(state)
+
+    def slope(step):
+        return (value(step) - value(-step)) / (2 * step)
+
+    _, force = force_of(term, points, term.evolved(points, start))
+    error = extrapolated(slope, 1e-4 * shell.patch.size_around) - (force * way).sum()
+    assert abs(error) < 1e-6 * np.linalg.norm(force) * np.linalg.norm(way)
 
 
 # --- in a crumple --------------------------------------------------------------------------------

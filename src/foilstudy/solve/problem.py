@@ -21,7 +21,7 @@ from foilstudy.model.patch import RING_ROWS, Patch
 from foilstudy.model.shell.held import held_blocks
 from foilstudy.model.shell.shell import Shell
 
-__all__ = ["Lasting", "Problem", "Term"]
+__all__ = ["Following", "Lasting", "Problem", "Term"]
 
 
 class Term(Protocol):
@@ -86,6 +86,19 @@ class Lasting(Term, Protocol):
         ...
 
 
+@runtime_checkable
+class Following(Term, Protocol):
+    """A term whose state goes where energy and what has been spent are least together.
+
+    So the force at the state that a shape leads to is the derivative of that sum, and a minimum can
+    be sought with the state following; of other terms it is held.
+    """
+
+    def spent(self, state: Any) -> float:
+        """What the state has used up or holds back beside the energy of the term, J."""
+        ...
+
+
 class Problem:
     """A shell and what acts on it.
 
@@ -132,14 +145,18 @@ class Problem:
         """Whether any term depends on what has happened before."""
         return any(state is not None for state in self.state)
 
-    def force(self, points: np.ndarray, out: np.ndarray) -> np.ndarray:
+    def force(
+        self, points: np.ndarray, out: np.ndarray, state: tuple[Any, ...] | None = None
+    ) -> np.ndarray:
         """Write the gradient of the potential energy, N; return the energies of all terms, J.
 
         Parameters
         ----------
         points, out : ndarray, shape (3, rows, columns)
+        state : tuple, optional
+            Another one than that last committed.
         """
-        first, *rest = zip(self.terms, self.state, strict=True)
+        first, *rest = zip(self.terms, self.state if state is None else state, strict=True)
         energies = first[0].force(points, out, first[1])
         if not rest:
             return energies
@@ -153,17 +170,34 @@ class Problem:
         """Potential energy, J."""
         return float(self.force(points, np.empty_like(points)).sum())
 
-    def tangent(self, points: np.ndarray) -> sparse.csr_matrix:
+    def followed(self, points: np.ndarray) -> tuple[Any, ...]:
+        """The state that a shape leads to, nothing committed; held where no term follows."""
+        return tuple(
+            term.evolved(points, state) if isinstance(term, Following) else state
+            for term, state in zip(self.terms, self.state, strict=True)
+        )
+
+    def spent(self, state: tuple[Any, ...]) -> float:
+        """What terms that follow have spent at a state, J."""
+        pairs = zip(self.terms, state, strict=True)
+        return sum((t.spent(s) for t, s in pairs if isinstance(t, Following)), start=0.0)
+
+    def tangent(
+        self, points: np.ndarray, state: tuple[Any, ...] | None = None
+    ) -> sparse.csr_matrix:
         """Second derivative of the potential energy, N/m; of any sparsity, symmetric."""
-        matrices = [t.tangent(points, s) for t, s in zip(self.terms, self.state, strict=True)]
+        pairs = zip(self.terms, self.state if state is None else state, strict=True)
+        matrices = [term.tangent(points, own) for term, own in pairs]
         return sum(matrices[1:], start=matrices[0])
 
-    def held_tangent(self, points: np.ndarray) -> sparse.csr_matrix | SymmetricBlocks:
+    def held_tangent(
+        self, points: np.ndarray, state: tuple[Any, ...] | None = None
+    ) -> sparse.csr_matrix | SymmetricBlocks:
         """The same of the control points between held rings; of a mere shell in blocks."""
         if len(self.terms) == 1:
             return held_blocks(self.patch, self.shell.tangent_blocks(points))
         owned = RING_ROWS * 3 * self.patch.columns
-        return self.tangent(points)[owned:-owned, owned:-owned].tocsr()
+        return self.tangent(points, state)[owned:-owned, owned:-owned].tocsr()
 
     def numbers(self) -> dict[str, float]:
         """What terms whose memory lasts say of their state, by the names of quantities."""

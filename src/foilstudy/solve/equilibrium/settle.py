@@ -32,7 +32,9 @@ _FREE = slice(RING_ROWS, -RING_ROWS)
 class HeldSheet:
     """Potential energy of a sheet whose rings stand still, for `minimise`.
 
-    The state of terms with memory stays the one that was last committed.
+    Terms with a memory start from the state that was last committed. Where it follows the shape to
+    the least of energy and what is spent, as plastic flow does, it follows in every evaluation; of
+    other terms it is held.
 
     Parameters
     ----------
@@ -64,15 +66,19 @@ class HeldSheet:
         return points
 
     def value_and_gradient(self, q: np.ndarray) -> tuple[float, np.ndarray]:
-        """Potential energy (J) and force on the free control points (N)."""
-        energies = self._problem.force(self.points(q), self._force)
+        """Potential energy and what is spent (J), and force on the free control points (N)."""
+        points = self.points(q)
+        state = self._problem.followed(points)
+        energies = self._problem.force(points, self._force, state)
         rings = self._force[:, :RING_ROWS], self._force[:, -RING_ROWS:]
         self.ring_force, self._at = float(np.linalg.norm(np.stack(rings))), q.copy()
-        return float(energies.sum()), self.unknowns(self._force)
+        value = float(energies.sum()) + self._problem.spent(state)
+        return value, self.unknowns(self._force)
 
     def hessian(self, q: np.ndarray) -> sparse.csr_matrix | SymmetricBlocks:
-        """Tangent stiffness of the free control points, N/m."""
-        return self._problem.held_tangent(self.points(q))
+        """Tangent stiffness of the free control points at the state they lead to, N/m."""
+        points = self.points(q)
+        return self._problem.held_tangent(points, self._problem.followed(points))
 
     def ring_force_at(self, q: np.ndarray) -> float:
         """Norm of the force on the rings, N: the scale of residuals."""
@@ -209,10 +215,7 @@ def settle(
 
 
 def _committed(problem: Problem, points: np.ndarray, residual: float) -> float:
-    """Residual of an equilibrium once terms with memory have taken note of its shape.
-
-    The minimisation holds their state.
-    """
+    """Residual of an equilibrium once terms with memory have taken note of its shape."""
     if not problem.has_memory:
         return residual
     problem.commit(points)

@@ -201,6 +201,13 @@ class PlasticTerm:
             [plane * (e1 + nu * e2), plane * (e2 + nu * e1), plane * 0.5 * (1 - nu) * e6], axis=2
         )
 
+    def spent(self, state: PlasticState) -> float:
+        """See `solve.problem.Following`: dissipated, or kept by the kinematic hardening, J."""
+        p1, p2, p6 = state.layers[:, :, :3].transpose(2, 0, 1, 3)
+        square = (p1 * p1 + p2 * p2 + p1 * p2 + 0.25 * p6 * p6).mean(axis=1)
+        kept = 2 / 3 * self.law.flow.kinematic * np.sum(self._frame[:, 6] * square)
+        return self.dissipated(state) + float(kept)
+
     def dissipated(self, state: PlasticState) -> float:
         """Work that plastic flow has used up, J: all but what kinematic hardening keeps."""
         flow, done = self.law.flow, state.accumulated
