@@ -62,8 +62,10 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
     """
     wanted = wanted_cells(study, lambda cell: recorded_values(study, results, cell))
     coordinates = _coordinates(study, wanted)
-    laws = ("", study.material.law)
-    variables = {name: q for name, q in QUANTITIES.items() if q.in_cube and q.law in laws}
+    elastic = study.material.law == "elastic"
+    variables = {
+        name: q for name, q in QUANTITIES.items() if q.in_cube and not (elastic and q.yielding)
+    }
     sizes = {name: len(values) for name, (_, values, _) in coordinates.items()}
     cells = tuple(sizes[name] for name in _CELL)
     data = {

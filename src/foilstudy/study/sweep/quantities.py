@@ -31,8 +31,8 @@ class Declared:
         Where the cube has another unit.
     cube_scale : float
         From the one to the other.
-    law : str
-        The material law without which there is none; empty: any.
+    yielding : bool
+        Whether there is one only where the material law lets the foil yield.
     """
 
     units: str
@@ -41,7 +41,7 @@ class Declared:
     in_cube: bool = True
     cube_units: str = ""
     cube_scale: float = 1.0
-    law: str = ""
+    yielding: bool = False
 
 
 def _length(words: str) -> Declared:
@@ -88,7 +88,7 @@ QUANTITIES: dict[str, Declared] = {
     "bending_energy": Declared("J", "bending energy"),
     "stabilisation_energy": Declared("J", "stabilisation energy"),
     "plastic_relief_energy": Declared(
-        "J", "what plastic strains take off these three: a negative energy", law="plastic"
+        "J", "what plastic strains take off these three: a negative energy", yielding=True
     ),
     "reaction_force": Declared("N", "axial force of the crumpled foil on the top ring"),
     "radial_displacement_min": _length("smallest radial displacement"),
@@ -112,9 +112,9 @@ QUANTITIES: dict[str, Declared] = {
         cube_scale=180 / np.pi,
     ),
     "beyond_yield_share": Declared("1", "share of the surface beyond the yield stress"),
-    "plastic_share": Declared("1", "share of the volume that has yielded", law="plastic"),
-    "plastic_strain_max": Declared("1", "largest accumulated plastic strain", law="plastic"),
-    "dissipated_work": Declared("J", "work that plastic flow has used up", law="plastic"),
+    "plastic_share": Declared("1", "share of the volume that has yielded", yielding=True),
+    "plastic_strain_max": Declared("1", "largest accumulated plastic strain", yielding=True),
+    "dissipated_work": Declared("J", "work that plastic flow has used up", yielding=True),
     "self_crossing_share": Declared("1", "share of the surface crossed by another part"),
     "mode_count": Declared(
         "1", "eigenfrequencies, rings clamped, below a frequency", ("frequency",)
