@@ -131,7 +131,7 @@ def test_a_rig_without_faults_gives_back_the_truth(motion):
     rig = Rig(LINK, GAP, shaker=Shaker(motion=motion))
     f = np.arange(1.0, 500.0)
     error = np.abs(noiseless(rig, f) / rig.truth(f) - 1)
-    assert error.max() < (1e-9 if motion == 2 else 0.04)
+    assert error.max() < (1e-9 if motion == 2 else 0.1)
     assert error[f > 20].max() < 1e-3
     estimate = by_periods(rig)
     assert Static.of(estimate).value == pytest.approx(np.abs(rig.truth(f[:1]))[0], rel=5e-3)

@@ -258,8 +258,8 @@ class Watched:
         largest = np.maximum(np.abs(self._least), np.abs(self._most))
         if bad := self._named(largest >= _CLIPPED * scales):
             raise Refusal(
-                f"channel {bad} reaches its full scale, so that it is clipped; lower the excitation "
-                "or its gain."
+                f"channel {bad} reaches its full scale, so that it is clipped; lower the "
+                "excitation or its gain."
             )
 
     def _named(self, which: np.ndarray) -> str:
