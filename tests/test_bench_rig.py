@@ -13,12 +13,12 @@ from foilstudy.bench.estimation.procedure import Published
 from foilstudy.bench.estimation.spectra import Blocks
 from foilstudy.bench.estimation.static import Static
 from foilstudy.bench.estimation.subtraction import without_bypass
-from foilstudy.bench.recording import open_recording, write_recording
+from foilstudy.bench.recording import GRAVITY, open_recording, write_recording
 from foilstudy.bench.rig.biases import Drive, Faults, biases
 from foilstudy.bench.rig.frames import BASE
 from foilstudy.bench.rig.measurement import measured
 from foilstudy.bench.rig.rig import Rig
-from foilstudy.bench.rig.sensors import GRAVITY, Sensors
+from foilstudy.bench.rig.sensors import Sensors
 from foilstudy.bench.rig.shaker import Shaker
 from foilstudy.bench.rig.specimens import SPECIMENS
 from foilstudy.bench.rig.specimens.absent import Absent

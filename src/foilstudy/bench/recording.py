@@ -26,6 +26,8 @@ __all__ = [
 ACCELERATION, FORCE = "m/s^2", "N"
 UNITS = (ACCELERATION, FORCE)
 BODIES = ("base", "metrology")
+GRAVITY = 9.80665
+"""m/s^2."""
 PIECE = 1 << 16
 """Samples that are held at once where all of a recording is gone through."""
 

@@ -8,9 +8,9 @@ from typing import Self
 import numpy as np
 
 from foilstudy.base.ranges import require_number
-from foilstudy.bench.recording import ACCELERATION, Channel
+from foilstudy.bench.recording import ACCELERATION, GRAVITY, Channel
 from foilstudy.bench.rig.frames import BASE, METROLOGY, Frame
-from foilstudy.bench.rig.sensors import GRAVITY, Sensors, shown
+from foilstudy.bench.rig.sensors import Sensors, shown
 from foilstudy.bench.rig.shaker import Shaker
 from foilstudy.bench.rig.specimens import Specimen
 from foilstudy.bench.rig.specimens.absent import Absent

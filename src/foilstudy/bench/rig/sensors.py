@@ -7,12 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from foilstudy.base.ranges import require_count, require_number
-from foilstudy.bench.recording import ACCELERATION, FORCE, Channel
+from foilstudy.bench.recording import ACCELERATION, FORCE, GRAVITY, Channel
 
-__all__ = ["GRAVITY", "Sensors"]
-
-GRAVITY = 9.80665
-"""m/s^2."""
+__all__ = ["Sensors"]
 
 
 @dataclass(frozen=True)
