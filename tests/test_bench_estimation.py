@@ -248,6 +248,16 @@ def test_hv_is_the_geometric_mean(noisy):
     assert np.allclose(np.angle(hv), np.angle(h1))
 
 
+@pytest.mark.parametrize("name", ESTIMATORS)
+def test_a_delay_has_its_phase(name):
+    """Of 3 samples: 3 / rate."""
+    x = noise(200, 4)
+    spectra = averaged(recorded(x, np.roll(x, 3)), Blocks(4.0), 100)
+    response = ESTIMATORS[name](*spectra.of(0, 1))
+    expected = np.exp(-2j * np.pi * spectra.frequencies * 3 / RATE)
+    assert np.abs(response - expected).max() < 0.1
+
+
 def test_coherence_of_known_noise(noisy):
     """1 / ((1 + 0.5)(1 + 4/25))."""
     assert noisy.coherence(1, 3).mean() == pytest.approx(1 / (1.5 * 1.16), rel=5e-3)
@@ -310,6 +320,13 @@ def test_a_linear_system_is_recovered_within_the_stated_noise():
     errors = np.abs(best.values - response) ** 2
     assert np.mean(errors / best.noise**2) == pytest.approx(1.15, abs=0.35)
     assert np.isnan(best.distortion).all()
+
+
+def test_noise_that_input_and_output_share_is_no_error():
+    """As of a rig that shakes by itself: the response is the same for it."""
+    x = np.tile(Multisine(1, 50, 1.0, period_s=4.0).signal().samples(RATE), 6) + noise(24, 1)
+    means = period_means(recorded(x, 2 * x), Periods(4.0), 50)
+    assert np.allclose(means.variance(0, 1), 0, atol=1e-12)
 
 
 def test_means_over_periods_do_not_leak():

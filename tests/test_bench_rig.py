@@ -250,13 +250,17 @@ def hardening(share, reach=2e-3):
     return NonlinearAxial(LINK, u, 198.0 * u * (1 + share * (u / reach) ** 2))
 
 
-def test_a_straight_line_is_the_linear_rig():
+def test_a_straight_line_is_a_linear_link_of_its_slope():
+    """50 % beyond the tangent: the base, too, feels it."""
     tones = Multisine(1.0, 20.0, 5.0, PERIOD).signal()
-    curved, straight = (
+    u = np.linspace(-1e-2, 1e-2, 3)
+    curved = NonlinearAxial(LINK, u, 1.5 * 198.0 * u)
+    stiff = replace(LINK, axial=1.5 * 198.0)
+    found, expected = (
         measured(Rig(link, GAP, sensors=QUIET), tones, 200.0, PERIOD).period
-        for link in (hardening(0.0), LINK)
+        for link in (curved, stiff)
     )
-    assert np.allclose(curved, straight, atol=1e-9 * np.abs(straight).max())
+    assert np.allclose(found, expected, atol=1e-8 * np.abs(expected).max(axis=1, keepdims=True))
 
 
 def test_a_hardening_link_obeys_its_own_law_in_the_steady_state():
