@@ -90,11 +90,14 @@ class Rig:
         )
 
     def _plate(self, frequencies: np.ndarray) -> np.ndarray:
-        """Force that the plate takes per motion of the upper ring's centre, shape (f, 6, 6)."""
-        mass, tilt = self.sensors.plate, self.sensors.tilt
+        """Force that the plate takes per motion of the upper ring's centre, shape (f, 6, 6).
+
+        Its inertia, and its weight when the frame turns.
+        """
+        mass = self.sensors.plate
         out = np.zeros((len(frequencies), 6, 6))
         out[:, [0, 1, 2], [0, 1, 2]] = -mass * (2 * np.pi * frequencies[:, None]) ** 2
-        out[:, 0, 4], out[:, 1, 3] = -mass * GRAVITY * tilt, mass * GRAVITY * tilt
+        out[:, 0, 4], out[:, 1, 3] = -mass * GRAVITY, mass * GRAVITY
         return out
 
     def _shown(

@@ -30,7 +30,8 @@ class Sensors:
         Share of gravity that the accelerometers see when they tilt: 1 where they respond down to
         rest, 0 for ideal ones.
     plate : float
-        Mass between force cells and upper ring, kg: its inertia is measured as a force.
+        Mass between force cells and upper ring, kg: its inertia is measured as a force, and its
+        weight when the frame turns.
     full_scale_acceleration, full_scale_force : float
         m/s^2 and N.
     """
