@@ -127,12 +127,12 @@ def noiseless(rig, frequencies):
 
 @pytest.mark.parametrize("motion", [0, 2], ids=["radial", "axial"])
 def test_a_rig_without_faults_gives_back_the_truth(motion):
-    """Axially exactly; radially the frames turn on their mounts, which the definition excludes."""
+    """Axially exactly; radially the frames turn a little, which the definition excludes."""
     rig = Rig(LINK, GAP, shaker=Shaker(motion=motion))
     f = np.arange(1.0, 500.0)
     error = np.abs(noiseless(rig, f) / rig.truth(f) - 1)
-    assert error.max() < (1e-9 if motion == 2 else 0.1)
-    assert error[f > 20].max() < 1e-3
+    assert error.max() < (1e-9 if motion == 2 else 2e-3)
+    assert error[f > 50].max() < 1e-3
     estimate = by_periods(rig)
     assert Static.of(estimate).value == pytest.approx(np.abs(rig.truth(f[:1]))[0], rel=5e-3)
 
@@ -194,7 +194,15 @@ def test_blocks_of_a_whole_period_lose_little():
 def test_a_table_of_biases_names_steps_and_faults():
     drive = Drive(high_hz=60.0, duration_s=24.0, rate_hz=150.0, realisations=2)
     table = list(biases(Rig(LINK, GAP), drive, Faults()))
-    assert {row.rig for row in table} == {"none", "noise", "bypass", "tilt", "plate", "all"}
+    assert {row.rig for row in table} == {
+        "none",
+        "noise",
+        "bypass",
+        "plate",
+        "turning",
+        "tilt",
+        "all",
+    }
     by = {(row.rig, row.processing): row.percent for row in table}
     assert abs(by["none", "periods"]) < 0.5
     assert -5 < by["none", "published"] < -2

@@ -68,10 +68,12 @@ class Faults:
     ----------
     bypass : float
         N/m, from the reaction mass of the shaker.
-    tilt : float
-        Share of gravity in accelerometers that tilt.
+    turning_hz : tuple of float
+        Frequencies of base and metrology frame about all axes where nothing guides them.
     offset_m : float
-        Of the shaker from the axis, which makes the base tilt.
+        Of the shaker from the axis, which makes them turn.
+    tilt : float
+        Share of gravity in accelerometers that tilt, on frames that turn.
     plate : float
         kg between force cells and upper ring.
     noise : float
@@ -79,8 +81,9 @@ class Faults:
     """
 
     bypass: float = 100.0
-    tilt: float = 1.0
+    turning_hz: tuple[float, float] = (4.0, 1.5)
     offset_m: float = 0.02
+    tilt: float = 1.0
     plate: float = 1.0
     noise: float = 10.0
 
@@ -90,26 +93,34 @@ class Faults:
     def rigs(self, rig: Rig) -> dict[str, Rig]:
         """The rig with each fault alone, and with all of them."""
         x, y, z = rig.shaker.point
-        bypass = {"bypass": self.bypass}
-        offset = {"point": (x + self.offset_m, y + self.offset_m, z)}
-        noisy = {
-            "acceleration_noise": self.noise * rig.sensors.acceleration_noise,
-            "force_noise": self.noise * rig.sensors.force_noise,
+        bypass = {"shaker": {"bypass": self.bypass}}
+        noise = {
+            "sensors": {
+                "acceleration_noise": self.noise * rig.sensors.acceleration_noise,
+                "force_noise": self.noise * rig.sensors.force_noise,
+            }
         }
-        tilt, plate = {"tilt": self.tilt}, {"plate": self.plate}
+        plate, tilt = {"sensors": {"plate": self.plate}}, {"sensors": {"tilt": self.tilt}}
+        turning = {"shaker": {"point": (x + self.offset_m, y + self.offset_m, z)}}
+        for name, hz in zip(("base", "metrology"), self.turning_hz):
+            turning[name] = {"mount_hz": (*getattr(rig, name).mount_hz[:3], hz, hz, hz)}
         changes = {
-            "noise": ({}, noisy),
-            "bypass": (bypass, {}),
-            "tilt": (offset, tilt),
-            "plate": ({}, plate),
-            "all": (bypass | offset, noisy | tilt | plate),
+            "noise": [noise],
+            "bypass": [bypass],
+            "plate": [plate],
+            "turning": [turning],
+            "tilt": [turning, tilt],
+            "all": [noise, bypass, plate, turning, tilt],
         }
-        return {
-            name: replace(
-                rig, shaker=replace(rig.shaker, **shaker), sensors=replace(rig.sensors, **sensors)
-            )
-            for name, (shaker, sensors) in changes.items()
-        }
+        return {name: _changed(rig, each) for name, each in changes.items()}
+
+
+def _changed(rig: Rig, changes: list[dict[str, dict]]) -> Rig:
+    """A rig with fields of its parts changed, one set after the other."""
+    for change in changes:
+        parts = {name: replace(getattr(rig, name), **fields) for name, fields in change.items()}
+        rig = replace(rig, **parts)
+    return rig
 
 
 @dataclass(frozen=True)

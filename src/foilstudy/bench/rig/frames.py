@@ -59,7 +59,8 @@ class Frame:
         return np.concatenate([rigid_motion(arm[None]), np.eye(6)[3:]])
 
 
-BASE = Frame(60.0, (0.2, 0.2, 0.25), (0.0, 0.0, -0.05), (2.5, 2.5, 2.5, 4.0, 4.0, 4.0))
+BASE = Frame(60.0, (0.2, 0.2, 0.25), (0.0, 0.0, -0.05), (2.5, 2.5, 2.5, 50.0, 50.0, 50.0))
 """Frame that is shaken; a design value, as the published one is not known."""
-METROLOGY = Frame(500.0, (0.35, 0.35, 0.4), (0.0, 0.0, 0.45), (1.0, 1.0, 1.5, 1.5, 1.5, 1.5))
-"""The frame of 500 kg on its bellow; all but the mass is a design value."""
+METROLOGY = Frame(500.0, (0.35, 0.35, 0.4), (0.0, 0.0, 0.45), (1.0, 1.0, 1.5, 25.0, 25.0, 25.0))
+"""The frame of 500 kg on its bellow; all but the mass is a design value. Both frames are guided, so
+that they hardly turn."""
