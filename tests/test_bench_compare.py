@@ -308,6 +308,14 @@ def test_values_that_are_not_coherent_do_not_count(cube):
     assert run.high_hz < 30
 
 
+def test_without_coherence_at_low_frequencies_there_is_no_static_value(cube):
+    own = simulated(cube, CASE)
+    estimate = one_of(own)
+    estimate.coherence[own.frequencies < 15] = 0.5
+    found = Comparison.of(estimate, own)
+    assert found.static is None and found.frac_range[1] == pytest.approx(1)
+
+
 @pytest.mark.parametrize(
     ("wanted", "words"),
     [

@@ -156,7 +156,7 @@ class Comparison:
     curves : ndarray of complex, shape (realisations, f)
         Simulated at the measured frequencies.
     static : Static or None
-        Measured, where its band was measured.
+        Measured; None without a trusted value in its band.
     """
 
     measured: Estimate
@@ -189,9 +189,10 @@ class Comparison:
                 "(dynamics.shown_min_hz, shown_max_hz)."
             )
         shared = measured.at(inside)
-        first, last = measured.frequencies[[0, -1]]
-        reaches = first <= static_band_hz[1] and last >= static_band_hz[0]
-        static = Static.of(measured, static_band_hz) if reaches else None
+        low, high = static_band_hz
+        at_rest = (measured.frequencies >= low) & (measured.frequencies <= high)
+        known = (at_rest & measured.trusted).any()
+        static = Static.of(measured, static_band_hz) if known else None
         return cls(shared, simulated, simulated.at(shared.frequencies), static)
 
     @cached_property

@@ -81,7 +81,7 @@ def _lines(comparison: Comparison) -> Iterator[tuple[str, str]]:
     doubt = f", {percent(share)} of them with a coherence below 0.95" if share else ""
     yield "compared", f"{plural(measured.values.size, 'value')} from {low:g} to {high:g} Hz{doubt}"
     if comparison.static is None:
-        yield "static", "not measured: no value from 1 to 10 Hz"
+        yield "static", "not measured: no value of enough coherence from 1 to 10 Hz"
     else:
         found = comparison.static
         yield "measured", f"{_interval(found.value, found.low, found.high)}, mean of 1 to 10 Hz"
