@@ -16,6 +16,7 @@ ORDER = (
     "plot",
     "solve",
     "measure",
+    "bench",
     "pipeline",
     "export",
     "config",
@@ -91,7 +92,7 @@ def arrows():
 
 def test_the_house_stays_small():
     assert len(ORDER) <= 14
-    assert sum(map(len, arrows().values())) <= 47
+    assert sum(map(len, arrows().values())) <= 51
 
 
 def test_the_page_shows_the_rooms_as_they_are():

@@ -17,6 +17,7 @@ from cyclopts import App
 from foilstudy.base.errors import Refusal
 
 from .check import check
+from .compare import compare
 from .export import export
 from .report import report
 from .run import run
@@ -36,7 +37,7 @@ app = App(
     result_action="return_value",
 )
 app.register_install_completion_command()
-for command in (check, run, export, report):
+for command in (check, run, export, report, compare):
     app.command(command, help_epilogue="")  # else that of the whole
 
 

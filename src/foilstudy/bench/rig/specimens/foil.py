@@ -1,0 +1,34 @@
+"""A crumpled foil as its reduced model."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from foilstudy.measure.dynamics import Damping, ReducedModel
+
+__all__ = ["ReducedFoil"]
+
+
+@dataclass(frozen=True, eq=False)
+class ReducedFoil:
+    """The interface dynamic stiffness of `foilstudy.measure.dynamics`.
+
+    Attributes
+    ----------
+    model : ReducedModel
+    damping : Damping
+    """
+
+    kind = "foil"
+    model: ReducedModel
+    damping: Damping
+
+    def dynamic_stiffness(self, frequencies: np.ndarray) -> np.ndarray:
+        """See `Specimen`; up to where the model is valid."""
+        from foilstudy.measure.dynamics import interface_dynamic_stiffness
+
+        return interface_dynamic_stiffness(self.model, frequencies, self.damping)
