@@ -63,7 +63,8 @@ def test_the_map_has_every_mass_damping_path_and_element():
     }
     registries = (PATHS, MASSES, DAMPINGS, ELEMENTS)
     for (place, values), registry in zip(tried.items(), registries, strict=True):
-        assert values == set(registry) - {next(iter(registry))}, place
+        # a fitter's stops are no method that fails
+        assert values == set(registry) - {next(iter(registry)), "installation"}, place
     assert {way.measure for way in LIMITS.measures.ways} == set(STIFFNESS_MEASURES)
 
 
@@ -155,7 +156,7 @@ def fields():
         trial("kinetic", 0): GOOD | {"static_stiffness": [50.0, 150.0]},
         trial("kinetic", 1): GOOD | {"static_stiffness": [60.0, 170.0]},
         trial("no mass scaling, 1.1", 0): BAD,
-        trial("no mass scaling, 1.1", 1): GOOD | {"verdicts": ["converged", "folded_globally"]},
+        trial("no mass scaling, 1.1", 1): GOOD | {"broad_wave_share": 0.97},
     }
     records = {case: Record("trials", case, result, Cost()) for case, result in results.items()}
     return mapped({"trials": records})

@@ -1,5 +1,8 @@
 """Verdicts against shapes and histories whose verdict is known."""
 
+import json
+from pathlib import Path
+
 import handmade
 import numpy as np
 import pytest
@@ -143,3 +146,25 @@ def test_a_spring_between_rings_costs_nothing_as_a_whole_and_a_negative_one_show
     assert least_stiffness(spring) < -0.01
     assert least_stiffness(-spring) == -1.0
     assert np.isnan(least_stiffness(np.nan * spring))
+
+
+# --- trials of the map, labelled by method and picture ------------------------------------------
+
+LABELLED = json.loads((Path(__file__).parent / "reference/labelled.json").read_text())
+JUDGED = {"diverged", "folded_globally", "hourglassed", "locked"}
+MILD = "element uncontrolled"
+"""Whose checkerboard of half a millimetre in elements of 5 mm hides among the folds of 500 um."""
+
+
+def judged(trial):
+    return names(Evidence.of(trial["status"], trial["evidence"])) & JUDGED
+
+
+def test_labelled_trials_are_judged_as_they_were_labelled():
+    assert len(LABELLED) >= 60
+    kinds = {label for trial in LABELLED for label in trial["label"]}
+    assert kinds == JUDGED
+    missed = [t for t in LABELLED if set(t["label"]) - judged(t)]
+    assert all(trial["method"] == MILD for trial in missed)
+    wrong = [t for t in LABELLED if judged(t) - set(t["label"])]
+    assert len(wrong) < 0.05 * len(LABELLED), wrong

@@ -8,7 +8,7 @@ from foilstudy.measure.verdicts import VERDICTS
 from foilstudy.plot import style
 from foilstudy.plot.single import draw_shape
 from foilstudy.study.kernel.plan import Record
-from foilstudy.study.limits.map import QUANTITIES, Field
+from foilstudy.study.limits.map import QUANTITIES, Field, found
 from foilstudy.study.published import RADIUS
 
 _ROW, _COLUMN, _LABELS, _TOP = 0.2, 0.85, 2.6, 1.0
@@ -45,23 +45,23 @@ def chart(fields: list[Field]):
     """Bias by method and foil, with a mark for what speaks against it."""
     settings = list(dict.fromkeys(field.setting for field in fields))
     foils = list(dict.fromkeys(field.foil for field in fields))
-    found = {(field.setting, field.foil): field for field in fields}
+    cells = {(field.setting, field.foil): field for field in fields}
     width = _LABELS + _COLUMN * len(foils) * len(QUANTITIES) + 0.4
     figure = style.new_figure(width, _TOP + _ROW * len(settings) + 0.5)
     axes = figure.subplots(1, len(QUANTITIES), sharey=True)
     for ax, quantity in zip(axes, QUANTITIES, strict=True):
-        _panel(ax, quantity, settings, foils, found)
+        _panel(ax, quantity, settings, foils, cells)
     axes[0].set_yticks(range(len(settings)), [s.words for s in settings], fontsize=_FONT)
     marks = ", ".join(f"{mark} {name.replace('_', ' ')}" for name, mark in _MARKS.items())
     figure.supxlabel(f"per cent over the default; {marks}", fontsize=_FONT, wrap=True)
     return figure
 
 
-def _panel(ax, quantity, settings, foils, found) -> None:
+def _panel(ax, quantity, settings, foils, cells) -> None:
     values = np.full((len(settings), len(foils)), np.nan)
     for i, setting in enumerate(settings):
         for j, foil in enumerate(foils):
-            field = found.get((setting, foil))
+            field = cells.get((setting, foil))
             if field is None:
                 continue
             bias = field.bias[quantity].value
@@ -109,15 +109,15 @@ def gallery(fields: list[Field]):
 def _examples(fields: list[Field]) -> list[tuple[str, Field, Record]]:
     """By verdict, the first trial that has it and, if there is one, no other that is rarer."""
     order = [v.name for v in VERDICTS if v.name in _SHOWN]
-    found = []
+    examples = []
     for name in order:
         having = [
-            (len(record.result["verdicts"]), i, field, record)
+            (len(found(record)), i, field, record)
             for i, field in enumerate(fields)
             for record in field.records
-            if name in record.result["verdicts"] and np.size(record.result["points"])
+            if name in found(record) and np.size(record.result["points"])
         ]
         if having:
             _, _, field, record = min(having, key=lambda each: each[:2])
-            found.append((name, field, record))
-    return found
+            examples.append((name, field, record))
+    return examples

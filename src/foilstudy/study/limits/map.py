@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
-from foilstudy.measure.verdicts import FAULTS
+from foilstudy.measure.verdicts import FAULTS, Evidence, verdicts
 from foilstudy.study.kernel.plan import Record, Records
 from foilstudy.study.limits.plan import SETTINGS, Trial
 from foilstudy.study.limits.settings import DEFAULT, Setting
@@ -71,8 +71,17 @@ class Field:
 
 def is_sound(record: Record) -> bool:
     """Whether a trial came to rest and has no fault."""
-    names = record.result["verdicts"]
+    names = found(record)
     return "converged" in names and not set(FAULTS) & set(names)
+
+
+def found(record: Record) -> list[str]:
+    """Names of the verdicts on a trial, by the limits as they are now."""
+    known = {f.name: record.result[f.name] for f in fields(Evidence) if f.name in record.result}
+    if "alternation" not in known:  # it has left no shape
+        return record.result["verdicts"]
+    known = {name: value for name, value in known.items() if value is not None}
+    return [verdict.name for verdict in verdicts(Evidence(**known))]
 
 
 def mapped(records: Records) -> list[Field]:
@@ -85,12 +94,12 @@ def mapped(records: Records) -> list[Field]:
         Field(
             SETTINGS[name],
             foil,
-            tuple(found),
-            Counter(verdict for record in found for verdict in record.result["verdicts"]),
-            _biases(found, cells.get((default, foil), [])),
-            _median(record.result.get("seconds") for record in found),
+            tuple(trials),
+            Counter(verdict for record in trials for verdict in found(record)),
+            _biases(trials, cells.get((default, foil), [])),
+            _median(record.result.get("seconds") for record in trials),
         )
-        for (name, foil), found in cells.items()
+        for (name, foil), trials in cells.items()
     ]
 
 
@@ -103,8 +112,8 @@ def _median(values: Iterable[float | None]) -> float:
     return float(np.median(known)) if known else np.nan
 
 
-def _biases(found: list[Record], default: list[Record]) -> dict[str, Bias]:
-    return {name: _bias(_values(found, name), _values(default, name)) for name in QUANTITIES}
+def _biases(trials: list[Record], default: list[Record]) -> dict[str, Bias]:
+    return {name: _bias(_values(trials, name), _values(default, name)) for name in QUANTITIES}
 
 
 def _values(records: list[Record], name: str) -> np.ndarray:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from foilstudy.base.tables import markdown_table
 from foilstudy.measure.verdicts import VERDICTS
-from foilstudy.study.limits.map import QUANTITIES, Bias, Field
+from foilstudy.study.limits.map import QUANTITIES, Bias, Field, found
 
 _MODEL = ("self_crossing", "beyond_yield")
 """Limits of the model, which the default has, too."""
@@ -22,7 +22,7 @@ def rows(fields: list[Field]) -> list[dict]:
             "height_mm": field.foil.height_mm,
             "size_mm": field.foil.size_mm,
             "seed": record.case.seed,
-            "verdicts": " ".join(record.result["verdicts"]),
+            "verdicts": " ".join(found(record)),
             **{name: record.result.get(name) for name in _NUMBERS},
             "axial": _stiffness(record.result, 0),
             "radial": _stiffness(record.result, 1),
@@ -77,12 +77,12 @@ def page(fields: list[Field]) -> str:
 
 def verdict_words(field: Field) -> str:
     """What speaks against a method, with how many trials have it."""
-    found = [
+    against = [
         f"{verdict.name.replace('_', ' ')} ({field.verdicts[verdict.name]})"
         for verdict in VERDICTS
         if field.verdicts[verdict.name] and verdict.name not in (_GOOD, *_MODEL)
     ]
-    return ", ".join(found) or "none"
+    return ", ".join(against) or "none"
 
 
 def bias_words(bias: Bias) -> str:
