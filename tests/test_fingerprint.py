@@ -43,6 +43,10 @@ REGISTRIES = {
 NOT_IN_TASKS = {
     "stiffness measure": "pipeline.measures",
     "lesser model": "model.shell.elements",
+    "estimator": "bench.estimation.estimators",
+    "excitation": "bench.signals",
+    "format of measured responses": "bench.measured",
+    "specimen": "bench.rig.specimens",
 }
 """The same of what no configuration chooses from."""
 ANOTHER = {
