@@ -11,7 +11,7 @@ from foilstudy.base.registry import Registry
 from foilstudy.config import load_config
 from foilstudy.model.shell.elements import ELEMENTS
 from foilstudy.model.shell.material import LAWS
-from foilstudy.solve.choices import MASSES, PATHS, SEARCHES
+from foilstudy.solve.choices import MASSES, SEARCHES
 
 
 def compile_kernels() -> bool:
@@ -56,11 +56,11 @@ def compile_kernels() -> bool:
 def _variants() -> Iterator[dict]:
     """Sections that choose every element, and every strategy, but the default ones.
 
-    Not those that are known to fail: whoever tries one waits for its kernels.
+    Not those that are known to fail: whoever tries one waits for its kernels. A path has none.
     """
     yield from ({"mesh": {"element": name}} for name in _safe(ELEMENTS))
     yield from ({"material": {"law": name}} for name in _safe(LAWS)[1:])
-    registries = {"path": PATHS, "mass": MASSES, "search": SEARCHES}
+    registries = {"mass": MASSES, "search": SEARCHES}
     for key, registry in registries.items():
         yield from ({"method": {key: name}} for name in _safe(registry)[1:])
 
