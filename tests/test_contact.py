@@ -5,16 +5,28 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-from conftest import DIAMETER, FEP, imperfect_sheet, rotation
+from conftest import DIAMETER, FEP, GAP_HEIGHT, imperfect_sheet, rotation
 
 from foilstudy.base.errors import Refusal
+from foilstudy.linalg import SolveError
 from foilstudy.model.contact import Contact, SelfContact
 from foilstudy.model.contact.barrier import PARALLEL, pair_energy, pair_hessian
 from foilstudy.model.contact.candidates import candidates
 from foilstudy.model.contact.distance import closest
 from foilstudy.model.contact.surface import triangulation
-from foilstudy.model.patch import Patch
+from foilstudy.model.foil import Foil
+from foilstudy.model.patch import Patch, knot_points
+from foilstudy.model.shell.intersection import self_crossing_share
 from foilstudy.model.shell.shell import Shell
+from foilstudy.pipeline.crumple import crumple
+from foilstudy.pipeline.method import Mesh, Method
+from foilstudy.pipeline.touching import crumple_touching
+from foilstudy.solve.paths.newton import NewtonPath
+from foilstudy.solve.paths.relaxation import RelaxationPath
+from foilstudy.solve.problem import Problem
+from foilstudy.solve.relaxation.mass.spectral import SpectralMassScaling
+from foilstudy.solve.relaxation.mass.touching import TouchingMassScaling
+from foilstudy.solve.relaxation.scheme import Scheme
 
 THICKNESS, REACH = 1e-4, 1e-3
 SPAN = (THICKNESS + REACH) ** 2 - THICKNESS**2
@@ -259,3 +271,129 @@ def test_a_way_through_the_sheet_has_infinite_energy(pressed):
     through[1, 3:5, 4:8] -= 4e-3
     assert np.isinf(term.force(through, force)[0])
     assert np.isfinite(term.force(points, force)[0])
+
+
+# ------------------------------------------------------------------ motion
+
+
+def touching_mass(term, sheet):
+    return TouchingMassScaling().start(Problem(sheet, term))
+
+
+def test_a_step_that_would_cross_is_shortened_with_its_momentum(pressed):
+    term, points = pressed
+    sheet, _ = flattened()
+    mass = touching_mass(term, sheet)
+    term.force(points, np.empty_like(points))
+    upper = points[1, 2:-2] > 0
+    down = np.zeros((3, *upper.shape))
+    down[1][upper] = -1.0
+    bare = SpectralMassScaling().start(Problem(sheet))
+    momentum = down * 5e-3 / np.abs(bare.velocity(down)).max()
+    whole = momentum.copy()
+    velocity = mass.velocity(momentum).copy()
+    share = np.sum(momentum * whole) / np.sum(whole * whole)
+    assert 0 < share < 0.5
+    assert np.allclose(momentum, share * whole, rtol=1e-12)
+    there = points.copy()
+    there[:, 2:-2] += velocity
+    assert np.isfinite(term.force(there, np.empty_like(points))[0])
+    there[:, 2:-2] += velocity * (1 / share - 1)
+    term.force(points, np.empty_like(points))
+    assert np.isinf(term.force(there, np.empty_like(points))[0])
+
+
+def test_rings_that_alone_close_a_gap_end_the_motion(pressed):
+    term, points = pressed
+    sheet, _ = flattened()
+    mass = touching_mass(term, sheet)
+    shape, force = points.copy(), np.empty_like(points)
+    still = np.zeros((3, points.shape[1] - 4, points.shape[2]))
+    upper = points[1] > 0
+    with pytest.raises(SolveError, match="more ramp steps"):
+        for _ in range(5):
+            assert np.isfinite(term.force(shape, force)[0])
+            mass.velocity(still)
+            shape[1][upper] -= 2e-4
+
+
+def test_factor_on_the_mass_keeps_the_step_stable(pressed):
+    term, points = pressed
+    sheet, _ = flattened()
+    mass = touching_mass(term, sheet)
+    bare = SpectralMassScaling().start(Problem(sheet))
+    term.force(points, np.empty_like(points))
+    owned = 2 * 3 * sheet.patch.columns
+    springs = term.spring_tangent(points)[owned:-owned, owned:-owned].toarray()
+    shape = (sheet.patch.rows - 4, sheet.patch.columns, 3)
+
+    def response(column):
+        push = np.ascontiguousarray(np.moveaxis(column.reshape(shape), -1, 0))
+        return np.moveaxis(bare.velocity(push), 0, -1).ravel()
+
+    largest = np.linalg.eigvals(np.array([response(c) for c in springs.T]).T).real.max()
+    momentum = np.zeros((3, *shape[:2]))
+    for _ in range(60):
+        mass.velocity(momentum)
+    assert largest > 3.8 - 1.4
+    assert mass.largest_factor == pytest.approx((1.1 * largest + 1.4) / 3.8, rel=0.05)
+
+
+# ------------------------------------------------------------------ crumples
+
+METHOD = Method(RelaxationPath(ramp_steps=400))
+MESH = Mesh(14e-3)
+
+
+def foil_of(overlength):
+    return Foil(DIAMETER, GAP_HEIGHT * (1 + overlength), GAP_HEIGHT, 500e-6, FEP)
+
+
+def test_where_nothing_comes_near_the_crumple_is_the_same_to_the_last_bit():
+    foil = foil_of(0.15)
+    without = crumple(foil, MESH, method=METHOD)
+    touching = crumple_touching(foil, MESH, method=METHOD)
+    assert touching.status == "converged"
+    assert np.array_equal(touching.points, without.points)
+    assert touching.arrival.hessians == without.arrival.hessians
+
+
+@pytest.fixture(scope="module")
+def touching():
+    return crumple_touching(foil_of(0.92), MESH, method=METHOD)
+
+
+def test_a_crumple_that_would_cross_itself_touches_instead(touching):
+    assert crumple_share(crumple(foil_of(0.92), MESH, method=METHOD)) > 0.002
+    assert touching.status == "converged", touching.message
+    assert touching.arrival.residual <= 1e-8
+    assert touching.arrival.negative_eigenvalues == 0
+    assert touching.crossing_share() == 0.0
+    assert touching.bracket().closed > 0
+
+
+def crumple_share(crumpled):
+    return self_crossing_share(knot_points(crumpled.points))
+
+
+def test_contacts_stiffen_in_their_order(touching):
+    bracket = touching.bracket()
+    assert np.allclose(bracket.ignored, touching.stiffness(), rtol=1e-6)
+    for direction in range(2):
+        axial_or_radial = [
+            values[direction]
+            for values in (bracket.ignored, bracket.normal, bracket.rigid, bracket.stuck)
+        ]
+        assert axial_or_radial == sorted(axial_or_radial)
+        assert axial_or_radial[-1] > axial_or_radial[0]
+
+
+def test_what_contact_cannot_keep_is_refused():
+    foil = foil_of(0.15)
+    with pytest.raises(Refusal, match="coarsenings of the ramp to 0"):
+        crumple_touching(foil, replace(MESH, ramp_coarsenings=1))
+    with pytest.raises(Refusal, match="not by the path newton"):
+        crumple_touching(foil, MESH, method=Method(NewtonPath()))
+    scheme = Scheme.named("spectral", "kinetic")
+    with pytest.raises(Refusal, match="use adaptive_viscous"):
+        crumple_touching(foil, MESH, method=Method(RelaxationPath(scheme=scheme)))

@@ -159,11 +159,16 @@ class Problem:
         return sum(matrices[1:], start=matrices[0])
 
     def held_tangent(self, points: np.ndarray) -> sparse.csr_matrix | SymmetricBlocks:
-        """The same of the control points between held rings; of a mere shell in blocks."""
-        if len(self.terms) == 1:
+        """The same of the control points between held rings; of a mere shell in blocks.
+
+        So it is where no other term is at work, to the same bits as without them.
+        """
+        others = [t.tangent(points, s) for t, s in zip(self.terms[1:], self.state[1:], strict=True)]
+        if not any(matrix.nnz for matrix in others):
             return held_blocks(self.patch, self.shell.tangent_blocks(points))
         owned = RING_ROWS * 3 * self.patch.columns
-        return self.tangent(points)[owned:-owned, owned:-owned].tocsr()
+        tangent = sum(others, start=self.shell.tangent(points, self.state[0]))
+        return tangent[owned:-owned, owned:-owned].tocsr()
 
     def numbers(self) -> dict[str, float]:
         """What terms whose memory lasts say of their state, by the names of quantities."""

@@ -64,6 +64,13 @@ class SelfContact:
         Of the sheet, on a closed patch.
     contact : Contact, optional
 
+    Attributes
+    ----------
+    thickness, reach : float
+        m.
+    membrane_stiffness : float
+        E t/(1 - nu^2), N/m.
+
     Raises
     ------
     Refusal
@@ -82,6 +89,7 @@ class SelfContact:
         self._far = _FAR * min(patch.size_around, patch.size_along)
         self.thickness, self.reach = section.thickness, contact.reach
         self._span = (section.thickness + contact.reach) ** 2 - section.thickness**2
+        self.membrane_stiffness = membrane
         self._size = contact.stiffness * membrane * contact.reach**2
         self._rest = self._surface.knots(section.reference)
         self._followed: FollowedPairs | None = None
@@ -234,6 +242,34 @@ class SelfContact:
         return springs(
             self._followed.knots, closed.pairs, closed.edges, self.thickness, self._span, self._size
         )
+
+    def spring_tangent(
+        self, points: np.ndarray, stiffness: float | None = None, stuck: bool = False
+    ) -> sparse.csr_matrix:
+        """Stiffness of the closed pairs as springs between their closest points, without stress.
+
+        Parameters
+        ----------
+        points : ndarray, shape (3, rows, columns)
+            m.
+        stiffness : float, optional
+            Of every spring, N/m; that of the barrier by default.
+        stuck : bool
+            Whether they resist sliding as well as approach.
+
+        Returns
+        -------
+        csr_matrix
+            On all control points, as `tangent`; positive semi-definite.
+        """
+        if not self._reached(points):
+            raise ValueError("a sheet has no contacts in a shape that crosses itself")
+        own, weights, direction = self.springs()
+        size = np.maximum(own, 0.0) if stiffness is None else np.full(len(own), stiffness)
+        across = np.eye(3) if stuck else direction[:, :, None] * direction[:, None, :]
+        pair = size[:, None, None] * weights[:, :, None] * weights[:, None, :]
+        blocks = np.einsum("pij,kl->pikjl" if stuck else "pij,pkl->pikjl", pair, across)
+        return self._on_points(self.closed(), blocks.reshape(-1, 12, 12))
 
     def _between_rings(self, free: np.ndarray) -> np.ndarray:
         field = np.zeros(self._surface.patch.shape)
