@@ -41,19 +41,22 @@ def candidates(
 
 def _near(knots, holders, others, distance):
     """Pairs of one of `others` and one of `holders`; of edges among each other each once."""
-    low, high = _boxes(knots, others)
-    margin = np.array([-distance, distance])[:, None, None]
-    wide_low, wide_high = np.stack(_boxes(knots, holders)) + margin
-    origin = low.min(axis=0)
-    extent = high.max(axis=0) - origin
-    side = max(float(np.median((high - low).max(axis=1))), distance)
+    middles, radii = _balls(knots, others)
+    holder_middles, holder_radii = _balls(knots, holders)
+    reach = holder_radii + radii.max() + distance
+    origin = middles.min(axis=0)
+    extent = middles.max(axis=0) - origin
+    side = max(0.5 * float(reach.max()), distance)
     side = max(side, float(np.cbrt(np.prod(np.maximum(extent, side)) / _CELLS_MOST)))
     counts = (extent / side).astype(np.int64) + 1
-    starts, members = _grid(low, high, origin, side, counts)
+    cells = ((middles - origin) / side).astype(np.int64)
+    cell = (cells[:, 0] * counts[1] + cells[:, 1]) * counts[2] + cells[:, 2]
+    members = np.argsort(cell, kind="stable")
+    starts = np.concatenate([[0], np.cumsum(np.bincount(cell, minlength=np.prod(counts)))])
     found = np.empty((max(4096, 4 * len(holders)), 4), dtype=np.int64)
     while True:
         number = _search(
-            knots, holders, others, low, high, wide_low, wide_high,
+            knots, holders, others, middles, radii, holder_middles, holder_radii, reach,
             origin, side, counts, starts, members, distance, found,
         )  # fmt: skip
         if number <= len(found):
@@ -61,9 +64,12 @@ def _near(knots, holders, others, distance):
         found = np.empty((number, 4), dtype=np.int64)
 
 
-def _boxes(knots, members):
+def _balls(knots, members):
+    """Middle and radius of a ball around each point, edge or triangle."""
     corners = knots[members]
-    return corners.min(axis=1), corners.max(axis=1)
+    middles = corners.mean(axis=1)
+    radii = np.sqrt(np.max(np.sum((corners - middles[:, None]) ** 2, axis=2), axis=1))
+    return middles, radii
 
 
 @njit(cache=True)
@@ -71,101 +77,53 @@ def _cell(value, origin, side, count):
     return min(max(int((value - origin) / side), 0), count - 1)
 
 
-@njit(cache=True)
-def _grid(low, high, origin, side, counts):
-    """Which boxes overlap each cell: starts and members, in the order of the boxes."""
-    nx, ny, nz = counts
-    starts = np.zeros(nx * ny * nz + 1, dtype=np.int64)
-    members = np.empty(0, dtype=np.int64)
-    for filling in range(2):
-        for b in range(len(low)):
-            for i in range(
-                _cell(low[b, 0], origin[0], side, nx), _cell(high[b, 0], origin[0], side, nx) + 1
-            ):
-                for j in range(
-                    _cell(low[b, 1], origin[1], side, ny),
-                    _cell(high[b, 1], origin[1], side, ny) + 1,
-                ):
-                    for k in range(
-                        _cell(low[b, 2], origin[2], side, nz),
-                        _cell(high[b, 2], origin[2], side, nz) + 1,
-                    ):
-                        cell = (i * ny + j) * nz + k
-                        if filling:
-                            members[starts[cell]] = b
-                            starts[cell] += 1
-                        else:
-                            starts[cell + 1] += 1
-        if filling:  # the starts have moved on to the next cell's
-            for cell in range(len(starts) - 1, 0, -1):
-                starts[cell] = starts[cell - 1]
-            starts[0] = 0
-        else:
-            for cell in range(len(starts) - 1):
-                starts[cell + 1] += starts[cell]
-            members = np.empty(starts[-1], dtype=np.int64)
-    return starts, members
-
-
 @njit(cache=True, error_model="numpy")
 def _search(
-    knots, holders, others, low, high, wide_low, wide_high,
+    knots, holders, others, middles, radii, holder_middles, holder_radii, reach,
     origin, side, counts, starts, members, distance, found,
 ):  # fmt: skip
     """Write the pairs that are near, as many as there is room for; return their number."""
-    nx, ny, nz = counts
     edges = others.shape[1] == 2
     x, a = np.empty((4, 3)), np.empty(4)
     change, w = np.empty((2, 4)), np.empty(3)
-    seen = np.full(len(others), -1)
     ids = np.empty(4, dtype=np.int64)
+    first, last = np.empty(3, dtype=np.int64), np.empty(3, dtype=np.int64)
     number = 0
     for h in range(len(holders)):
-        for i in range(
-            _cell(wide_low[h, 0], origin[0], side, nx),
-            _cell(wide_high[h, 0], origin[0], side, nx) + 1,
-        ):
-            for j in range(
-                _cell(wide_low[h, 1], origin[1], side, ny),
-                _cell(wide_high[h, 1], origin[1], side, ny) + 1,
-            ):
-                for k in range(
-                    _cell(wide_low[h, 2], origin[2], side, nz),
-                    _cell(wide_high[h, 2], origin[2], side, nz) + 1,
-                ):
-                    cell = (i * ny + j) * nz + k
-                    for place in range(starts[cell], starts[cell + 1]):
-                        b = members[place]
-                        if seen[b] == h or (edges and b <= h):
-                            continue
-                        seen[b] = h
-                        apart = False
+        for c in range(3):
+            middle = holder_middles[h, c]
+            first[c] = _cell(middle - reach[h], origin[c], side, counts[c])
+            last[c] = _cell(middle + reach[h], origin[c], side, counts[c])
+        for i in range(first[0], last[0] + 1):
+            for j in range(first[1], last[1] + 1):
+                row = (i * counts[1] + j) * counts[2]
+                for place in range(starts[row + first[2]], starts[row + last[2] + 1]):
+                    b = members[place]
+                    if edges and b <= h:
+                        continue
+                    most = holder_radii[h] + radii[b] + distance
+                    square = 0.0
+                    for c in range(3):
+                        way = holder_middles[h, c] - middles[b, c]
+                        square += way * way
+                    if square > most * most:
+                        continue
+                    if edges:
+                        ids[0], ids[1] = holders[h, 0], holders[h, 1]
+                        ids[2], ids[3] = others[b, 0], others[b, 1]
+                        met = ids[0] == ids[3] or ids[1] == ids[2] or ids[1] == ids[3]
+                    else:
+                        ids[0], ids[1] = others[b, 0], holders[h, 0]
+                        ids[2], ids[3] = holders[h, 1], holders[h, 2]
+                        met = ids[0] == ids[1] or ids[0] == ids[3]
+                    if met or ids[0] == ids[2]:
+                        continue
+                    for m in range(4):
                         for c in range(3):
-                            if low[b, c] > wide_high[h, c] or high[b, c] < wide_low[h, c]:
-                                apart = True
-                        if apart:
-                            continue
-                        if edges:
-                            ids[0], ids[1] = holders[h, 0], holders[h, 1]
-                            ids[2], ids[3] = others[b, 0], others[b, 1]
-                            if (
-                                ids[0] == ids[2]
-                                or ids[0] == ids[3]
-                                or ids[1] == ids[2]
-                                or ids[1] == ids[3]
-                            ):
-                                continue
-                        else:
-                            ids[0], ids[1] = others[b, 0], holders[h, 0]
-                            ids[2], ids[3] = holders[h, 1], holders[h, 2]
-                            if ids[0] == ids[1] or ids[0] == ids[2] or ids[0] == ids[3]:
-                                continue
-                        for m in range(4):
-                            for c in range(3):
-                                x[m, c] = knots[ids[m], c]
-                        square, _ = closest(x, edges, a, change, w)
-                        if square < distance * distance:
-                            if number < len(found):
-                                found[number] = ids
-                            number += 1
+                            x[m, c] = knots[ids[m], c]
+                    nearest, _ = closest(x, edges, a, change, w)
+                    if nearest < distance * distance:
+                        if number < len(found):
+                            found[number] = ids
+                        number += 1
     return number

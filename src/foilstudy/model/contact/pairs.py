@@ -9,7 +9,7 @@ from foilstudy.model.contact.barrier import barrier, pair_energy, pair_hessian
 from foilstudy.model.contact.candidates import candidates
 from foilstudy.model.contact.distance import closest
 from foilstudy.model.contact.passing import passable_share
-from foilstudy.model.contact.surface import Triangulation
+from foilstudy.model.contact.surface import Triangulation, largest_deviation
 
 
 class FollowedPairs:
@@ -36,36 +36,33 @@ class FollowedPairs:
     ):
         self._surface, self.knots = surface, knots
         self._thickness, self._cutoff, self._skin = thickness, thickness + reach, skin
-        self._travel, self._valid = 0.0, -1.0
-
-    def travelled(self, motion: np.ndarray) -> float:
-        """Largest motion of a knot beside the mean of all, which leaves every distance, m."""
-        return float(np.sqrt(np.max(np.sum((motion - motion.mean(axis=0)) ** 2, axis=1))))
+        self._travel, self._reach_of_list = 0.0, -1.0
+        self._listed_at, self._active = knots, None
 
     def share(self, motion: np.ndarray, closing: float) -> float:
         """Part of a motion from the shape reached last in which no gap closes by a larger share."""
-        shift = self.travelled(motion)
-        self._see(shift)
+        there = self.knots + motion
+        self._see(there)
+        travel = self._travel + largest_deviation(there, self.knots)
         return passable_share(
-            self.knots, motion, self.pairs, self.touching, self._due, self._travel + shift,
+            self.knots, motion, self.pairs, self.touching, self._due, travel,
             self._thickness, closing,
         )  # fmt: skip
 
-    def _see(self, shift: float) -> None:
-        """Find all pairs that may come within the reach in a motion of that size."""
-        if self._travel + shift <= self._valid:
+    def _see(self, there: np.ndarray) -> None:
+        """Have all pairs listed that may come within the reach on the way to a shape."""
+        if largest_deviation(there, self._listed_at) <= self._reach_of_list:
             return
-        skin = max(self._skin, 2.0 * shift)
+        skin = max(self._skin, 2.0 * largest_deviation(there, self.knots))
         self.pairs, self.touching = candidates(self._surface, self.knots, self._cutoff + skin)
         self._due = np.full(len(self.pairs), -1.0)
-        self._valid = self._travel + 0.5 * skin
+        self._reach_of_list, self._listed_at, self._active = 0.5 * skin, self.knots, None
 
     def move(self, knots: np.ndarray) -> None:
         """Take note of the shape reached."""
-        shift = self.travelled(knots - self.knots)
-        self._see(shift)
-        self._travel += shift
-        self.knots = knots
+        self._see(knots)
+        self._travel += largest_deviation(knots, self.knots)
+        self.knots, self._active = knots, None
 
     def least_distance(self) -> float:
         """Smallest distance of a pair, m; infinite where none is within the reach."""
@@ -76,14 +73,16 @@ class FollowedPairs:
 
     def active(self) -> np.ndarray:
         """Pairs within the reach, in an order that follows from the shape alone."""
-        self._see(0.0)
-        found = _within(
-            self.knots, self.pairs, self.touching, self._due, self._travel, self._cutoff
-        )
-        if len(found) < 2:
-            return found
-        kind = found >= self.touching
-        return found[np.lexsort((*self.pairs[found].T[::-1], kind))]
+        self._see(self.knots)
+        if self._active is None:
+            found = _within(
+                self.knots, self.pairs, self.touching, self._due, self._travel, self._cutoff
+            )
+            if len(found) > 1:
+                kind = found >= self.touching
+                found = found[np.lexsort((*self.pairs[found].T[::-1], kind))]
+            self._active = found
+        return self._active
 
 
 @njit(cache=True, error_model="numpy")

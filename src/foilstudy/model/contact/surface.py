@@ -7,8 +7,9 @@ from functools import lru_cache
 
 import numpy as np
 import scipy.sparse as sparse
+from numba import njit
 
-from foilstudy.model.patch import Patch, knot_points
+from foilstudy.model.patch import Patch
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +35,9 @@ class Triangulation:
 
     def knots(self, field: np.ndarray) -> np.ndarray:
         """Means of four control points each, of positions or motions, shape (count, 3)."""
-        return np.ascontiguousarray(knot_points(field).reshape(3, -1).T)
+        out = np.empty((self.count, 3))
+        _means_of_four(field, out)
+        return out
 
     def gathered(self, forces: np.ndarray, out: np.ndarray) -> None:
         """Forces on the knots as forces on the control points: the transpose of `knots`.
@@ -44,11 +47,8 @@ class Triangulation:
         forces : ndarray, shape (count, 3)
         out : ndarray, shape (3, rows, columns)
         """
-        quarter = 0.25 * forces.T.reshape(3, self.patch.rows - 1, self.patch.columns)
-        quarter = quarter + np.roll(quarter, 1, axis=2)
-        out[:, 0] = 0.0
-        out[:, 1:] = quarter
-        out[:, :-1] += quarter
+        out[:] = 0.0
+        _spread_to_four(forces, out)
 
     def spread(self) -> sparse.csr_matrix:
         """The matrix of `knots`, every component by itself."""
@@ -90,3 +90,49 @@ def _spread(patch: Patch) -> sparse.csr_matrix:
     entries = np.full(4 * knot.size, 0.25), (np.tile(knot, 4), np.concatenate(points))
     matrix = sparse.csr_matrix(entries, (knot.size, rows * columns))
     return sparse.kron(matrix, sparse.identity(3), format="csr")
+
+
+@njit(cache=True, error_model="numpy")
+def _means_of_four(field, out):
+    _, rows, columns = field.shape
+    for j in range(rows - 1):
+        for i in range(columns):
+            right = i + 1 if i + 1 < columns else 0
+            for c in range(3):
+                below = 0.5 * (field[c, j, i] + field[c, j + 1, i])
+                beside = 0.5 * (field[c, j, right] + field[c, j + 1, right])
+                out[j * columns + i, c] = 0.5 * (below + beside)
+
+
+@njit(cache=True, error_model="numpy")
+def _spread_to_four(forces, out):
+    _, rows, columns = out.shape
+    for j in range(rows - 1):
+        for i in range(columns):
+            right = i + 1 if i + 1 < columns else 0
+            for c in range(3):
+                quarter = 0.25 * forces[j * columns + i, c]
+                if quarter != 0.0:
+                    out[c, j, i] += quarter
+                    out[c, j, right] += quarter
+                    out[c, j + 1, i] += quarter
+                    out[c, j + 1, right] += quarter
+
+
+@njit(cache=True, error_model="numpy")
+def largest_deviation(here, before):
+    """Largest distance between two states of points, beside the mean of all."""
+    mean = np.zeros(3)
+    for p in range(len(here)):
+        for c in range(3):
+            mean[c] += here[p, c] - before[p, c]
+    mean /= len(here)
+    most = 0.0
+    for p in range(len(here)):
+        square = 0.0
+        for c in range(3):
+            way = here[p, c] - before[p, c] - mean[c]
+            square += way * way
+        if not square <= most:  # what is not a number goes through
+            most = square
+    return np.sqrt(most)

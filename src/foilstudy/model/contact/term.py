@@ -17,7 +17,7 @@ from foilstudy.model.contact.pairs import (
     spring_forces,
     springs,
 )
-from foilstudy.model.contact.surface import triangulation
+from foilstudy.model.contact.surface import largest_deviation, triangulation
 from foilstudy.model.patch import RING_ROWS
 from foilstudy.model.shell.intersection import self_crossing_share
 from foilstudy.model.shell.section import Section
@@ -168,7 +168,7 @@ class SelfContact:
             return True
         followed = self._followed
         motion = knots - followed.knots
-        shift = followed.travelled(motion)
+        shift = largest_deviation(knots, followed.knots)
         if shift > self._far:
             if not (begun := self._begun(knots)):
                 return False
