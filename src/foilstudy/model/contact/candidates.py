@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from foilstudy.model.contact.distance import closest
+from foilstudy.model.contact.distance import closest, edge_square
 from foilstudy.model.contact.surface import Triangulation
 
 _CELLS_MOST = 4_000_000
@@ -53,6 +53,7 @@ def _near(knots, holders, others, distance):
     cell = (cells[:, 0] * counts[1] + cells[:, 1]) * counts[2] + cells[:, 2]
     members = np.argsort(cell, kind="stable")
     starts = np.concatenate([[0], np.cumsum(np.bincount(cell, minlength=np.prod(counts)))])
+    middles, radii = middles[members], radii[members]
     found = np.empty((max(4096, 4 * len(holders)), 4), dtype=np.int64)
     while True:
         number = _search(
@@ -82,7 +83,10 @@ def _search(
     knots, holders, others, middles, radii, holder_middles, holder_radii, reach,
     origin, side, counts, starts, members, distance, found,
 ):  # fmt: skip
-    """Write the pairs that are near, as many as there is room for; return their number."""
+    """Write the pairs that are near, as many as there is room for; return their number.
+
+    Middles and radii of the others stand in the order of their cells.
+    """
     edges = others.shape[1] == 2
     x, a = np.empty((4, 3)), np.empty(4)
     change, w = np.empty((2, 4)), np.empty(3)
@@ -98,15 +102,15 @@ def _search(
             for j in range(first[1], last[1] + 1):
                 row = (i * counts[1] + j) * counts[2]
                 for place in range(starts[row + first[2]], starts[row + last[2] + 1]):
-                    b = members[place]
-                    if edges and b <= h:
-                        continue
-                    most = holder_radii[h] + radii[b] + distance
+                    most = holder_radii[h] + radii[place] + distance
                     square = 0.0
                     for c in range(3):
-                        way = holder_middles[h, c] - middles[b, c]
+                        way = holder_middles[h, c] - middles[place, c]
                         square += way * way
                     if square > most * most:
+                        continue
+                    b = members[place]
+                    if edges and b <= h:
                         continue
                     if edges:
                         ids[0], ids[1] = holders[h, 0], holders[h, 1]
@@ -118,10 +122,13 @@ def _search(
                         met = ids[0] == ids[1] or ids[0] == ids[3]
                     if met or ids[0] == ids[2]:
                         continue
-                    for m in range(4):
-                        for c in range(3):
-                            x[m, c] = knots[ids[m], c]
-                    nearest, _ = closest(x, edges, a, change, w)
+                    if edges:
+                        nearest = edge_square(knots, ids[0], ids[1], ids[2], ids[3])
+                    else:
+                        for m in range(4):
+                            for c in range(3):
+                                x[m, c] = knots[ids[m], c]
+                        nearest, _ = closest(x, False, a, change, w)
                     if nearest < distance * distance:
                         if number < len(found):
                             found[number] = ids

@@ -128,6 +128,31 @@ def edge_edge(x, a, change):
 
 
 @njit(cache=True, error_model="numpy")
+def edge_square(knots, i, j, k, m):
+    """Squared distance of two edges of a surface, i to j and k to m, without what `closest` says.
+
+    Ericson, Real-Time Collision Detection, section 5.1.9: several times faster, and of near
+    parallel edges as exact as rounding allows.
+    """
+    u, v, r = _from(knots, i, j), _from(knots, k, m), _from(knots, k, i)
+    uu, uv, vv, ur, vr = _dot(u, u), _dot(u, v), _dot(v, v), _dot(u, r), _dot(v, r)
+    det = uu * vv - uv * uv
+    p = 0.0
+    if det > _PARALLEL * uu * vv:
+        p = min(max((uv * vr - ur * vv) / det, 0.0), 1.0)
+    q = (uv * p + vr) / vv
+    if q < 0.0:
+        q, p = 0.0, min(max(-ur / uu, 0.0), 1.0)
+    elif q > 1.0:
+        q, p = 1.0, min(max((uv - ur) / uu, 0.0), 1.0)
+    square = 0.0
+    for c in range(3):
+        gap = r[c] + p * u[c] - q * v[c]
+        square += gap * gap
+    return square
+
+
+@njit(cache=True, error_model="numpy")
 def closest(x, is_edges, a, change, w):
     """Weights as above and the closest vector; returns the squared distance and the free ones."""
     free = edge_edge(x, a, change) if is_edges else point_triangle(x, a, change)
