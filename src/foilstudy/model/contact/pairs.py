@@ -38,30 +38,39 @@ class FollowedPairs:
         self._thickness, self._cutoff, self._skin = thickness, thickness + reach, skin
         self._travel, self._reach_of_list = 0.0, -1.0
         self._listed_at, self._active = knots, None
+        self._list(self._skin)
 
-    def share(self, motion: np.ndarray, closing: float) -> float:
-        """Part of a motion from the shape reached last in which no gap closes by a larger share."""
-        there = self.knots + motion
-        self._see(there)
-        travel = self._travel + largest_deviation(there, self.knots)
-        return passable_share(
-            self.knots, motion, self.pairs, self.touching, self._due, travel,
-            self._thickness, closing,
-        )  # fmt: skip
-
-    def _see(self, there: np.ndarray) -> None:
-        """Have all pairs listed that may come within the reach on the way to a shape."""
-        if largest_deviation(there, self._listed_at) <= self._reach_of_list:
-            return
-        skin = max(self._skin, 2.0 * largest_deviation(there, self.knots))
+    def _list(self, skin: float) -> None:
+        """List all pairs that the skin lets in, in the shape reached last."""
         self.pairs, self.touching = candidates(self._surface, self.knots, self._cutoff + skin)
         self._due = np.full(len(self.pairs), -1.0)
         self._reach_of_list, self._listed_at, self._active = 0.5 * skin, self.knots, None
 
-    def move(self, knots: np.ndarray) -> None:
-        """Take note of the shape reached."""
-        self._see(knots)
-        self._travel += largest_deviation(knots, self.knots)
+    def shift(self, knots: np.ndarray) -> float:
+        """Largest motion of a knot from the shape reached last, beside the mean of all, m."""
+        return largest_deviation(knots, self.knots)
+
+    def share(self, motion: np.ndarray, shift: float, closing: float) -> float:
+        """Part of a motion from the shape reached last in which no gap closes by a larger share.
+
+        Parameters
+        ----------
+        motion : ndarray, shape (count, 3)
+            m.
+        shift : float
+            Its size, see `shift`.
+        closing : float
+        """
+        if largest_deviation(self.knots + motion, self._listed_at) > self._reach_of_list:
+            self._list(max(self._skin, 2.0 * shift))
+        return passable_share(
+            self.knots, motion, self.pairs, self.touching, self._due, self._travel + shift,
+            self._thickness, closing,
+        )  # fmt: skip
+
+    def move(self, knots: np.ndarray, shift: float) -> None:
+        """Take note of the shape reached by a motion of which `share` has been asked."""
+        self._travel += shift
         self.knots, self._active = knots, None
 
     def least_distance(self) -> float:
@@ -73,7 +82,6 @@ class FollowedPairs:
 
     def active(self) -> np.ndarray:
         """Pairs within the reach, in an order that follows from the shape alone."""
-        self._see(self.knots)
         if self._active is None:
             found = _within(
                 self.knots, self.pairs, self.touching, self._due, self._travel, self._cutoff

@@ -21,12 +21,17 @@ class Triangulation:
     patch : Patch
     triangles : ndarray of int, shape (triangles, 3)
         Knots, by row and column.
+        The first ones of all elements, then the second ones.
     edges : ndarray of int, shape (edges, 2)
+        Around at every knot; then along and across every element.
+    corners : ndarray of int, shape (count, 4)
+        Of the element that begins at a knot; beyond the last row, of its edge around.
     """
 
     patch: Patch
     triangles: np.ndarray
     edges: np.ndarray
+    corners: np.ndarray
 
     @property
     def count(self) -> int:
@@ -78,7 +83,9 @@ def triangulation(patch: Patch) -> Triangulation:
             np.stack([a, c], 1),
         ]
     )
-    return Triangulation(patch, triangles, edges)
+    last = np.stack([corner[-1], right[-1], corner[-1], right[-1]], 1)
+    corners = np.concatenate([np.stack([a, b, c, d], 1), last])
+    return Triangulation(patch, triangles, edges, corners)
 
 
 @lru_cache(maxsize=4)

@@ -17,7 +17,7 @@ from foilstudy.model.contact.pairs import (
     spring_forces,
     springs,
 )
-from foilstudy.model.contact.surface import largest_deviation, triangulation
+from foilstudy.model.contact.surface import triangulation
 from foilstudy.model.patch import RING_ROWS
 from foilstudy.model.shell.intersection import self_crossing_share
 from foilstudy.model.shell.section import Section
@@ -93,6 +93,7 @@ class SelfContact:
         self._size = contact.stiffness * membrane * contact.reach**2
         self._rest = self._surface.knots(section.reference)
         self._followed: FollowedPairs | None = None
+        self._closed: tuple[np.ndarray | None, Closed | None] = None, None
 
     def __repr__(self) -> str:
         return f"<SelfContact: {1e6 * self.thickness:g} µm, reach {1e3 * self.reach:g} mm>"
@@ -167,16 +168,17 @@ class SelfContact:
             self._followed = begun
             return True
         followed = self._followed
-        motion = knots - followed.knots
-        shift = largest_deviation(knots, followed.knots)
+        if np.array_equal(knots, followed.knots):
+            return True
+        shift = followed.shift(knots)
         if shift > self._far:
             if not (begun := self._begun(knots)):
                 return False
             self._followed = begun
             return True
-        if shift > 0 and followed.share(motion, _CLOSING) < 1.0:
+        if followed.share(knots - followed.knots, shift, _CLOSING) < 1.0:
             return False
-        followed.move(knots)
+        followed.move(knots, shift)
         return True
 
     def _begun(self, knots: np.ndarray) -> FollowedPairs | None:
@@ -192,9 +194,13 @@ class SelfContact:
         """The pairs within the reach in the last shape with a finite energy."""
         followed = self._followed
         active = followed.active()
+        if self._closed[0] is active:
+            return self._closed[1]
         pairs, edges = followed.pairs[active], active >= followed.touching
         lengths = self._rest[pairs[:, 1:4:2]] - self._rest[pairs[:, 0:3:2]]
-        return Closed(pairs, edges, PARALLEL * np.prod(np.sum(lengths**2, axis=2), axis=1))
+        full = PARALLEL * np.prod(np.sum(lengths**2, axis=2), axis=1)
+        self._closed = active, Closed(pairs, edges, full)
+        return self._closed[1]
 
     @property
     def knots(self) -> np.ndarray:
@@ -214,7 +220,8 @@ class SelfContact:
             From the last shape with a finite energy, m.
         closing : float
         """
-        return self._followed.share(motion, closing)
+        followed = self._followed
+        return followed.share(motion, followed.shift(followed.knots + motion), closing)
 
     def spring_forces(self, free: np.ndarray) -> np.ndarray:
         """Forces of the closed pairs as springs along their gaps, in a small motion.
