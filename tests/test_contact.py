@@ -256,7 +256,7 @@ def test_sheets_within_their_thickness_are_refused():
 
 def test_a_reach_too_large_for_the_mesh_is_refused():
     sheet = imperfect_sheet(10e-3)
-    with pytest.raises(Refusal, match=r"larger elements than 9.97 mm; reduce the reach below 4 mm"):
+    with pytest.raises(Refusal, match=r"larger elements than 9.97 mm; reduce the reach to 4 mm"):
         SelfContact(sheet.section, Contact(reach=5e-3))
     thick = replace(sheet.section, thickness=8e-3)
     with pytest.raises(Refusal, match="take a coarser mesh"):

@@ -8,9 +8,10 @@ from foilstudy.base.errors import Refusal
 from foilstudy.base.ranges import require_number
 from foilstudy.model.patch import Patch
 
-_NEAR_MOST, _REACH_MOST = 0.7, 0.4
-"""Thickness, reach and skin, and the reach alone, relative to the smaller side of an element:
-beyond, points of a smooth surface count as each other's neighbours in contact."""
+_FOLLOWED, _NEAR_MOST, _REACH_MOST = 0.6, 0.55, 0.4
+"""Relative to the smaller side of an element: distance within which pairs are followed, largest sum
+of thickness and reach, and largest reach. From 0.7 on points of a smooth surface are pairs with
+their own neighbours' triangles, which multiplies the pairs by twenty."""
 
 
 @dataclass(frozen=True)
@@ -24,22 +25,17 @@ class Contact:
     stiffness : float
         Energy of the barrier relative to membrane stiffness E t/(1 - nu^2) times reach squared. A
         softer one is entered more deeply, where it is stiffer.
-    skin : float
-        Gap beyond the reach at which pairs are followed, m, so that they need not be sought at
-        every step; less where the mesh wants it.
     """
 
     reach: float = 1e-3
     stiffness: float = 3e-3
-    skin: float = 2e-3
 
     def __post_init__(self):
         require_number("reach of a contact", self.reach, "m", above=0)
         require_number("stiffness of a contact", self.stiffness, "", above=0)
-        require_number("skin of a contact", self.skin, "m", above=0)
 
     def skin_on(self, patch: Patch, thickness: float) -> float:
-        """The skin that a mesh allows, m.
+        """Gap beyond the reach within which pairs are followed, m, to be sought less often.
 
         Raises
         ------
@@ -47,12 +43,13 @@ class Contact:
             If thickness and reach are too large for the elements.
         """
         side = min(patch.size_around, patch.size_along)
-        most = _NEAR_MOST * side - thickness - self.reach
-        if self.reach > _REACH_MOST * side or most <= 0:
+        most = min(_REACH_MOST * side, _NEAR_MOST * side - thickness)
+        if self.reach > most:
+            cure = "take a coarser mesh"
+            if most > 0:
+                cure = f"reduce the reach to {1e3 * most:.2g} mm or {cure}"
             raise Refusal(
                 f"contact of a foil of {1e6 * thickness:g} µm with a reach of "
-                f"{1e3 * self.reach:g} mm needs larger elements than {1e3 * side:.3g} mm; reduce "
-                f"the reach below {1e3 * min(_REACH_MOST * side, self.reach + most):.2g} mm or "
-                "take a coarser mesh."
+                f"{1e3 * self.reach:g} mm needs larger elements than {1e3 * side:.3g} mm; {cure}."
             )
-        return min(self.skin, most)
+        return _FOLLOWED * side - thickness - self.reach
