@@ -370,6 +370,9 @@ def test_a_crumple_that_would_cross_itself_touches_instead(touching):
     assert touching.arrival.negative_eigenvalues == 0
     assert touching.crossing_share() == 0.0
     assert touching.bracket().closed > 0
+    again = touching.settled()
+    assert again.status == "converged"
+    assert np.abs(again.points - touching.points).max() < 1e-6
 
 
 def crumple_share(crumpled):

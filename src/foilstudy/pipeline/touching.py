@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Self
 
 from foilstudy.base.errors import Refusal
 from foilstudy.measure.stiffness.contacts import ContactBracket, contact_bracket
@@ -13,6 +14,7 @@ from foilstudy.model.shell.intersection import self_crossing_share
 from foilstudy.pipeline.crumple import uncrumpled
 from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.method import Mesh, Method
+from foilstudy.solve.paths import Path
 from foilstudy.solve.paths.relaxation import RelaxationPath
 from foilstudy.solve.problem import Problem
 from foilstudy.solve.relaxation.mass.touching import TouchingMassScaling
@@ -40,6 +42,12 @@ class Touching(Crumpled):
         problem = Problem(bare.shell, *bare.terms[1:], self.term)
         problem.state = (*bare.state[: len(bare.terms)], None)
         return problem
+
+    def settled(self, method: Method | None = None) -> Self:
+        """See `Crumpled.settled`; contact is kept."""
+        path = _keeping_contact((method or self.method).path)
+        arrival = path.settle(self.problem(), self.points)
+        return replace(self, points=arrival.points, arrival=arrival)
 
     def crossing_share(self) -> float:
         """Share of the area that crosses the rest: zero."""
@@ -80,15 +88,25 @@ def crumple_touching(
         As `crumple`; if the mesh is too fine for the reach, or the method cannot keep contact.
     """
     start = uncrumpled(foil, mesh, imperfection, method)
-    path = start.method.path
-    if not isinstance(path, RelaxationPath):
-        raise Refusal(
-            f"contact is kept by relaxation, not by the path {path.kind}; use relaxation."
-        )
     if start.recipe.mesh.ramp_coarsenings:
         raise Refusal(
             "a crumple with contact cannot be pushed together on a coarser mesh, as it may cross "
             "itself on the finer one; set the coarsenings of the ramp to 0."
+        )
+    path = _keeping_contact(start.method.path)
+    touching = Touching(
+        foil, start.patch, start.points, start.reference, start.element, start.recipe,
+        contact=contact,
+    )  # fmt: skip
+    arrival = path.follow(touching.problem(), foil.shortening)
+    return replace(touching, points=arrival.points, arrival=arrival)
+
+
+def _keeping_contact(path: Path) -> RelaxationPath:
+    """The path with a mass that minds contact."""
+    if not isinstance(path, RelaxationPath):
+        raise Refusal(
+            f"contact is kept by relaxation, not by the path {path.kind}; use relaxation."
         )
     for damping in (path.scheme.ramp_damping, path.scheme.relaxation_damping):
         if damping.kind.startswith("kinetic"):
@@ -96,10 +114,4 @@ def crumple_touching(
                 f"a damping of kind {damping.kind} steps back without regard to contact; use "
                 "adaptive_viscous."
             )
-    scheme = replace(path.scheme, mass=TouchingMassScaling(path.scheme.mass))
-    touching = Touching(
-        foil, start.patch, start.points, start.reference, start.element, start.recipe,
-        contact=contact,
-    )  # fmt: skip
-    arrival = replace(path, scheme=scheme).follow(touching.problem(), foil.shortening)
-    return replace(touching, points=arrival.points, arrival=arrival)
+    return replace(path, scheme=replace(path.scheme, mass=TouchingMassScaling(path.scheme.mass)))
