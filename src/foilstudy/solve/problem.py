@@ -193,11 +193,18 @@ class Problem:
     def held_tangent(
         self, points: np.ndarray, state: tuple[Any, ...] | None = None
     ) -> sparse.csr_matrix | SymmetricBlocks:
-        """The same of the control points between held rings; of a mere shell in blocks."""
-        if len(self.terms) == 1:
+        """The same of the control points between held rings; of a mere shell in blocks.
+
+        So it is where no other term is at work, to the same bits as without them.
+        """
+        own, *states = self.state if state is None else state
+        pairs = zip(self.terms[1:], states, strict=True)
+        others = [term.tangent(points, each) for term, each in pairs]
+        if not any(matrix.nnz for matrix in others):
             return held_blocks(self.patch, self.shell.tangent_blocks(points))
         owned = RING_ROWS * 3 * self.patch.columns
-        return self.tangent(points, state)[owned:-owned, owned:-owned].tocsr()
+        tangent = sum(others, start=self.shell.tangent(points, own))
+        return tangent[owned:-owned, owned:-owned].tocsr()
 
     def numbers(self) -> dict[str, float]:
         """What terms whose memory lasts say of their state, by the names of quantities."""
