@@ -28,8 +28,9 @@ def python(*words):
 
 @pytest.fixture(scope="module")
 def cells(tmp_path_factory):
-    """Folder with the records of every frozen cell."""
+    """Folder with the records of every frozen cell, made as in a study: by compiled kernels."""
     folder = tmp_path_factory.mktemp("cells")
+    python("-c", "from foilstudy.study.sweep.warmup import compile_kernels; compile_kernels()")
     python(str(Path(__file__).with_name("frozen.py")), str(folder))
     return folder
 
