@@ -17,16 +17,17 @@ from foilstudy.model.shell.shell import Shell
 
 
 def digests():
-    """Of the force, the energy and the tangent of every element, in a rough shape."""
+    """Of force, energy and tangent of every element, in a rough shape and the stress-free one."""
     foil = Foil(0.2, 0.17, 0.13, 500e-6, "FEP")
-    patch = Patch.for_cylinder(foil.diameter, foil.reference_height, 20e-3)
+    patch = Patch.for_cylinder(foil.diameter, foil.reference_height, 10e-3)
     points = imperfect_cylinder(patch, foil, Imperfection())
     rough = points + np.random.default_rng(0).normal(scale=1e-3, size=points.shape)
     for element in [*(ELEMENTS[name]() for name in ELEMENTS), STAGGERED]:
         shell = Shell.elastic(patch, points, foil.material, foil.thickness, element)
-        force = shell.force(rough, np.empty_like(rough))
-        for result in (force, shell.energies(rough).total, shell.tangent_blocks(rough)):
-            yield hashlib.md5(np.ascontiguousarray(result).tobytes()).hexdigest()
+        for shape in (rough, points):
+            force = shell.force(shape, np.empty_like(shape))
+            for result in (force, shell.energies(shape).total, shell.tangent_blocks(shape)):
+                yield hashlib.md5(np.ascontiguousarray(result).tobytes()).hexdigest()
 
 
 @pytest.mark.slow
@@ -42,7 +43,7 @@ def test_compiling_a_kernel_does_not_change_its_bits(tmp_path):
 
     compiling, finding = run(), run()
     assert compiling == finding
-    assert len(set(compiling)) == len(compiling) == 3 * (len(ELEMENTS) + 1)
+    assert len(compiling) == 6 * (len(ELEMENTS) + 1)
 
 
 if __name__ == "__main__":

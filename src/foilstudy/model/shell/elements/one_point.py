@@ -80,7 +80,7 @@ def _stencil(patch: Patch) -> np.ndarray:
     return np.stack([np.outer(along, around).ravel() for along, around in pairs], axis=1)
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, error_model="numpy", forceinline=True)
 def _hessian(a, law, reference, factors, stressed, hessian, strain_rows):
     """Hessian of the energy of one element with respect to (a_1, a_2, a_11, a_22, a_12).
 
@@ -190,7 +190,7 @@ def _hessian(a, law, reference, factors, stressed, hessian, strain_rows):
                     hessian[3 * c_ + i, 3 * d + j] += metric * normal[i] * normal[j]
 
 
-@njit(cache=True)
+@njit(cache=True, forceinline=True)
 def _couple(hessian, i, j, value):
     hessian[i, j] += value
     hessian[j, i] += value

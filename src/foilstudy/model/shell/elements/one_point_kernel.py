@@ -38,7 +38,7 @@ def scales(patch, thickness: float, stabilisation: float) -> tuple[tuple, tuple]
     return (0.5 / h1, 1 / h1**2, *law), (0.5 / h2, 1 / h2**2)
 
 
-@njit(cache=True, fastmath=True, error_model="numpy")
+@njit(cache=True, fastmath=True, error_model="numpy", forceinline=True)
 def _element_chunk(buf, elements, at, n, scales, g):
     """Work-conjugate vectors (rows 0 to 14 of g) and energies (15 to 17) of n elements of a row."""
     d1, dd1, bend, grad1, grad2 = scales
@@ -153,7 +153,7 @@ def _element_chunk(buf, elements, at, n, scales, g):
         g[14 * _WIDE + i + 2] = (s2 + r6) * z2 + (s6 + r1) * z1 - m6 * nz
 
 
-@njit(cache=True, fastmath=True)
+@njit(cache=True, fastmath=True, forceinline=True)
 def _add_energies(g, count, energy):
     """Sum apart from the element loop, in which its order depended on where the arrays lay."""
     membrane, bending, stabilisation = 0.0, 0.0, 0.0
