@@ -11,9 +11,9 @@ from foilstudy.study.kernel.plan import Record
 from foilstudy.study.limits.map import QUANTITIES, Field, found
 from foilstudy.study.published import RADIUS
 
-_ROW, _COLUMN, _LABELS, _TOP = 0.2, 0.85, 2.6, 1.0
+_ROW, _COLUMN, _LABELS, _TOP = 0.15, 0.58, 2.2, 0.8
 """Of a cell, of the names on the left and of the heads above, inches."""
-_FONT = 6.5
+_FONT = 5.5
 _WORST = 0.6
 """Bias at which the colour is full."""
 _MARKS = {
