@@ -44,9 +44,6 @@ BENDING_MIN = 2.0
 STIFFNESS_MIN = -1e-6
 """Of the scaled interface stiffness, whose rigid motions are zero but for rounding."""
 
-RATE_MAX = 0.2
-"""Relative change with the loading rate from which a static stiffness is none."""
-
 
 @dataclass(frozen=True)
 class Verdict:
@@ -77,7 +74,7 @@ class Verdict:
 
 def _spurious(e: Evidence) -> bool:
     negative = any(k < 0 for k in e.static_stiffness)
-    return negative or e.least_stiffness < STIFFNESS_MIN or abs(e.rate_change) > RATE_MAX
+    return negative or e.least_stiffness < STIFFNESS_MIN
 
 
 def _locked(e: Evidence) -> bool:
@@ -154,7 +151,7 @@ VERDICTS = (
     ),
     Verdict(
         "spurious",
-        "a stress-free stiffness is negative or depends on the loading rate",
+        "a stress-free stiffness is negative",
         _spurious,
         fault=True,
         cure="measure the tangent of the shape that is stress-free (method.stress_removal: reset)",

@@ -32,8 +32,6 @@ class Evidence:
         were not sought.
     least_stiffness : float
         Smallest eigenvalue of the interface stiffness over its largest, in comparable units.
-    rate_change : float
-        Relative change of a stiffness from one loading rate to half of it.
     budget_spent : bool
         Whether the search ended for want of steps or factorisations.
     """
@@ -50,7 +48,6 @@ class Evidence:
     static_stiffness: tuple[float, ...] = ()
     prestressed_stiffness: tuple[float, ...] = ()
     least_stiffness: float = np.nan
-    rate_change: float = np.nan
     budget_spent: bool = False
 
     @classmethod
