@@ -21,15 +21,15 @@ MASSES = Registry(
             "solve.relaxation.mass.nodal:NodalMassScaling",
             "each control point raised to what its own stability takes",
             caution=(
-                "long waves become as heavy as the shortest, so that the foil cannot follow the "
-                "ring; use spectral"
+                "long waves become as heavy as the shortest, so that foil folds beside a ring that "
+                "moves alone; use spectral"
             ),
         ),
         "selective": Choice(
             "solve.relaxation.mass.selective:SelectiveMassScaling",
             "off-diagonal terms that spare translations, solved iteratively",
             caution=(
-                "it takes ten times as long as the spectral mass and its iterations may not "
+                "it takes tens of times as long as the spectral mass and its iterations may not "
                 "converge; use spectral"
             ),
         ),
@@ -59,7 +59,8 @@ DAMPINGS = Registry(
             "solve.relaxation.damping.kinetic:KineticDamping",
             "motion stopped where the kinetic energy peaks",
             caution=(
-                "thin foil comes to other shapes, and up to a third as stiff; use adaptive_viscous"
+                "with lumped masses and the ring alone thin foil diverges and thick foil folds; "
+                "use adaptive_viscous"
             ),
         ),
         "kinetic_reset": Choice(

@@ -21,7 +21,7 @@ ELEMENTS = Registry(
         "full": Choice(
             "model.shell.elements.full:Full",
             "full integration, which locks, and slow; to see how it fails",
-            caution="elements lock, up to 36 times too much energy in thin foil; use corner",
+            caution="elements lock, half as much energy again and more; use corner",
         ),
     },
 )
