@@ -25,8 +25,10 @@ help:
 study: $(RUNTIME)
 	@$(BIN)/snakemake -j$(CORES) $(if $(CONFIG),--configfile $(CONFIG))
 
+# Kernels first, so that no two test processes compile the same one; a file stays in one process.
 test: $(DEVELOPMENT)
-	@$(BIN)/python -m pytest
+	@$(BIN)/python -c "from foilstudy.study.sweep.warmup import compile_kernels; compile_kernels()"
+	@$(BIN)/python -m pytest -n $(CORES) --dist loadfile
 
 test-slow: $(DEVELOPMENT)
 	@$(BIN)/python -m pytest -m "slow or not slow"
