@@ -10,9 +10,10 @@ from scipy.special import stdtrit
 
 from foilstudy.base.confidence import CONFIDENCE
 from foilstudy.base.reference import published
+from foilstudy.measure.stiffness.bounds import bound_of_any_shape
 from foilstudy.measure.stiffness.directional import DIRECTIONS
 from foilstudy.study.kernel.plan import Records
-from foilstudy.study.published import GAP_HEIGHT
+from foilstudy.study.published import GAP_HEIGHT, foil
 from foilstudy.study.real.plan import LADDER, Trial
 
 STATES = {
@@ -67,18 +68,40 @@ class Law:
     of: int
 
 
+@dataclass(frozen=True)
+class Bounded:
+    """A measured stiffness, by its law, and what no foil can exceed (N/m)."""
+
+    thickness_um: int
+    height_mm: int
+    direction: str
+    measured: float
+    bound: float
+
+
 @dataclass(frozen=True, eq=False)
 class Found:
-    """What came out: the records, and laws of all models, the published ones first."""
+    """What came out: the records, laws of all models, the published ones first, and bounds."""
 
     records: dict[Trial, dict]
     laws: tuple[Law, ...]
+    bounds: tuple[Bounded, ...]
 
 
 def found(records: Records) -> Found:
     """Laws of the models with at least two thicknesses and overlengths."""
     results = {trial: record.result for trial, record in records["trials"].items()}
-    return Found(results, (*_published(), *_laws(results)))
+    return Found(results, (*_published(), *_laws(results)), tuple(_bounds()))
+
+
+def _bounds() -> Iterator[Bounded]:
+    for thickness in LADDER.thickness_um:
+        for height in LADDER.reference_height_mm:
+            case = foil(thickness, height)
+            for direction, bound in zip(DIRECTIONS, bound_of_any_shape(case)):
+                law = published().power_laws[direction]["experiment"].law
+                measured = float(law.stiffness(100 * case.overlength, thickness))
+                yield Bounded(thickness, height, direction, measured, float(bound))
 
 
 def _published() -> Iterator[Law]:

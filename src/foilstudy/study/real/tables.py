@@ -67,10 +67,27 @@ def page(found: Found) -> str:
         [law.words, law.state, law.direction, *(getattr(law, t).words for t in TERMS), _count(law)]
         for law in found.laws
     ]
-    return markdown_table([*heads, "exponent of thickness", "realisations"], body).replace(
-        " (nan to nan)", ""
-    )
+    table = markdown_table([*heads, "exponent of thickness", "realisations"], body)
+    return table.replace(" (nan to nan)", "") + "\n" + _bounds(found)
 
 
 def _count(law) -> str:
     return f"{law.count} of {law.of}" if law.of else ""
+
+
+def _bounds(found: Found) -> str:
+    heads = ["thickness, um", "height, mm", "direction", "measured law, kN/m"]
+    return markdown_table(
+        [*heads, "no foil exceeds, kN/m", "share"],
+        [
+            [
+                each.thickness_um,
+                each.height_mm,
+                each.direction,
+                f"{1e-3 * each.measured:.3g}",
+                f"{1e-3 * each.bound:.3g}",
+                f"{100 * each.measured / each.bound:.3g} %",
+            ]
+            for each in found.bounds
+        ],
+    )
