@@ -1,0 +1,67 @@
+"""The chart that explains: level and exponents of all models beside the measured ones."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from foilstudy.measure.stiffness.directional import DIRECTIONS
+from foilstudy.plot.style import PAGE_WIDTH, new_figure, styled, value_ticks
+from foilstudy.study.real.laws import CENTRE, TERMS, Found, Law
+
+_TITLES = {
+    "level": f"stiffness over the measured one,\n{CENTRE[1]:g} µm, {CENTRE[0]:g} %",
+    "overlength": "exponent of overlength",
+    "thickness": "exponent of thickness",
+}
+_MARKS = {"stress-free": "o", "with its stresses": "s"}
+_LEVELS = (0.03, 0.1, 0.3, 1, 3, 10, 30)
+_OFFSET = 0.16
+
+
+@styled
+def chart(found: Found):
+    """A row of panels for each direction, a line for each model."""
+    models = list(dict.fromkeys(law.words for law in found.laws if law.step != "experiment"))
+    figure = new_figure(PAGE_WIDTH, 1.6 + 0.62 * len(models) * len(DIRECTIONS))
+    panels = figure.subplots(len(DIRECTIONS), len(TERMS), sharey=True)
+    for row, direction in zip(panels, DIRECTIONS):
+        laws = [law for law in found.laws if law.direction == direction]
+        for panel, term in zip(row, TERMS):
+            _panel(panel, laws, models, term)
+        row[0].set_ylabel(direction)
+        row[0].set_yticks(range(len(models)), models)
+        row[0].set_ylim(len(models) - 0.5, -0.5)
+        row[0].set_xscale("log")
+        value_ticks(row[0].xaxis, _LEVELS)
+    for panel, term in zip(panels[0], TERMS):
+        panel.set_title(_TITLES[term])
+    handles = {
+        label: handle
+        for panel in panels.ravel()
+        for handle, label in zip(*panel.get_legend_handles_labels())
+    }
+    figure.legend(handles.values(), handles, loc="outside lower center", ncols=len(handles))
+    return figure
+
+
+def _panel(panel, laws: list[Law], models: list[str], term: str) -> None:
+    for law in laws:
+        known = getattr(law, term)
+        if law.step == "experiment":
+            panel.axvline(known.value, color="k", lw=1.2, label="measured")
+            if np.isfinite(known.low):
+                panel.axvspan(known.low, known.high, color="0.85", zorder=0)
+            continue
+        states = list(_MARKS)
+        shift = _OFFSET * (2 * states.index(law.state) - 1) if law.of else 0.0
+        ends = np.array([[known.value - known.low], [known.high - known.value]])
+        panel.errorbar(
+            known.value,
+            models.index(law.words) + shift,
+            xerr=ends if np.isfinite(ends).all() else None,
+            fmt=_MARKS[law.state],
+            color="0.1" if law.state == "stress-free" else "0.45",
+            mfc="w" if law.state == "stress-free" else None,
+            capsize=2.5,
+            label=law.state,
+        )

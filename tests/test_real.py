@@ -1,0 +1,129 @@
+"""What separates simulation from measurement: models as data, laws, chart."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from foilstudy.base.errors import ConfigError
+from foilstudy.base.reference import published
+from foilstudy.config import load_config
+from foilstudy.study.kernel.plan import Record
+from foilstudy.study.real import trial
+from foilstudy.study.real.figures import chart
+from foilstudy.study.real.laws import CENTRE, fit, found
+from foilstudy.study.real.plan import LADDER, STUDY
+from foilstudy.study.real.settings import FILE, read_ladder
+from foilstudy.study.real.tables import laws, page, trials
+
+CASES = STUDY.parts[0].cases
+BETA, GAMMA = -0.6, 1.5
+
+
+def stiffness(case, scale=1.0):
+    overlength = 100 * (case.height_mm / 130 - 1)
+    return scale * (overlength / CENTRE[0]) ** BETA * (case.thickness_um / CENTRE[1]) ** GAMMA
+
+
+def record(case):
+    """A record whose stress-free stiffness is twice the measured level, radially."""
+    level = published().power_laws["radial"]["experiment"].law.stiffness(*CENTRE)
+    scatter = 1.01 ** (2 * (case.seed % 2) - 1)
+    values = [stiffness(case), stiffness(case, 2 * level * scatter)]
+    result = {"status": "converged", "message": "", "static_stiffness": values}
+    return Record("trials", case, result | {"prestressed_stiffness": [-1.0, np.nan]}, None)
+
+
+@pytest.fixture(scope="module")
+def outcome():
+    return found({"trials": {case: record(case) for case in CASES}})
+
+
+def test_a_power_law_is_found_again():
+    level, overlength, thickness = fit({case: stiffness(case, 7.0) for case in CASES})
+    assert np.exp(level.value) == pytest.approx(7.0)
+    assert (overlength.value, thickness.value) == pytest.approx((BETA, GAMMA))
+
+
+def test_what_is_not_positive_has_no_logarithm():
+    values = {case: stiffness(case) for case in CASES}
+    values[CASES[0]] = -1.0
+    assert fit(values)[1].value == pytest.approx(BETA)
+    assert fit({case: np.nan for case in CASES}) is None
+
+
+def test_one_thickness_makes_no_law():
+    one = {c: stiffness(c) for c in CASES if c.thickness_um == CASES[0].thickness_um}
+    assert fit(one) is None
+
+
+def test_laws_are_held_against_the_measured_one(outcome):
+    radial = [law for law in outcome.laws if law.direction == "radial" and law.of]
+    assert {law.step for law in radial} == {step.name for step in LADDER.steps}
+    for law in radial:
+        assert law.state == "stress-free"  # no tangent above is positive
+        assert law.level.low < 2 < law.level.high
+        assert law.level.value == pytest.approx(2, rel=0.01)
+    measured = next(law for law in outcome.laws if law.step == "experiment")
+    assert measured.level.value == 1
+
+
+def test_tables_and_chart_show_every_model(outcome):
+    assert len(trials(outcome)) == len(CASES)
+    assert trials(outcome)[0]["static_stiffness_axial"] == pytest.approx(stiffness(CASES[0]))
+    assert {row["step"] for row in laws(outcome)} > {step.name for step in LADDER.steps}
+    for step in LADDER.steps:
+        assert step.words in page(outcome)
+    labels = {text.get_text() for text in chart(outcome).axes[0].get_yticklabels()}
+    assert labels == {"published simulation", *(step.words for step in LADDER.steps)}
+
+
+@pytest.mark.parametrize("step", LADDER.steps, ids=lambda step: step.name)
+def test_every_model_is_a_configuration(step):
+    case = next(case for case in CASES if case.step == step.name)
+    study = load_config(trial._configured(case, LADDER.sections_of(step.name)))
+    cell = study.cells()[case.seed]
+    assert (cell.thickness_um, cell.seed) == (case.thickness_um, case.seed)
+
+
+def test_a_step_has_the_sections_of_the_one_it_comes_after():
+    names = {step.name: step for step in LADDER.steps}
+    for step in names.values():
+        if step.after is not None:
+            inherited = LADDER.sections_of(step.after)
+            mine = LADDER.sections_of(step.name)
+            kept = set(inherited) - set(step.sections)
+            assert {name: mine[name] for name in kept} == {n: inherited[n] for n in kept}
+
+
+def test_another_content_is_another_case():
+    assert len({(case.step, case.content) for case in CASES}) == len(LADDER.steps)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("after: elastic", "after: rubber", "comes after 'rubber', which is none of the steps"),
+        ("name: plastic", "name: elastic", "two steps are called 'elastic'"),
+        ("seeds: 2", "seeds: 0", "seeds: "),
+    ],
+)
+def test_a_wrong_file_is_refused_in_a_sentence(tmp_path, old, new, words):
+    path = tmp_path / "real.yaml"
+    path.write_text(FILE.read_text().replace(old, new, 1))
+    with pytest.raises(ConfigError, match=words):
+        read_ladder(path)
+
+
+def test_a_trial_is_a_study_of_one_foil(monkeypatch):
+    coarse = {"mesh": {"element_size_mm": 18}, "relaxation": {"ramp_steps": 100}}
+    ladder = LADDER.model_copy(update={"sections": {**LADDER.sections, **coarse}})
+    monkeypatch.setattr(trial, "LADDER", ladder)
+    case = replace(CASES[0], thickness_um=500, height_mm=150, seed=1)
+    result = trial.measure(case)
+    assert result["status"] == "converged"
+    assert np.shape(result["static_stiffness"]) == (2,)
+    assert np.all(np.array(result["static_stiffness"]) > 0)
+    assert "control_points" not in result
