@@ -52,7 +52,8 @@ def open_cube(path: str | Path) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        Loaded; ``dynamic_stiffness`` replaces its real and imaginary parts.
+        Loaded; ``dynamic_stiffness`` replaces its real and imaginary parts, and so does
+        ``true_dynamic_stiffness`` where there is one.
 
     Raises
     ------
@@ -79,8 +80,12 @@ def open_cube(path: str | Path) -> xr.Dataset:
             f"{path} is a NetCDF file but not a cube of foilstudy; give the cube.nc of a study, "
             "not the record of one realisation."
         )
-    real, imaginary = cube["dynamic_stiffness_re"], cube["dynamic_stiffness_im"]
-    cube["dynamic_stiffness"] = (real + 1j * imaginary).assign_attrs(
-        units="N/m", long_name="dynamic stiffness"
-    )
-    return cube.drop_vars(parts)
+    words = {
+        "dynamic_stiffness": "dynamic stiffness",
+        "true_dynamic_stiffness": "dynamic stiffness of the foil as it stands",
+    }
+    for name in words.keys() & {each.removesuffix("_re") for each in cube}:
+        real, imaginary = cube[f"{name}_re"], cube[f"{name}_im"]
+        whole = (real + 1j * imaginary).assign_attrs(units="N/m", long_name=words[name])
+        cube = cube.assign({name: whole}).drop_vars([f"{name}_re", f"{name}_im"])
+    return cube

@@ -321,6 +321,14 @@ class StudyConfig(Section):
         """Seeds of the realisations: 0, 1, 2, ...; where these grow in rounds, of all possible."""
         return tuple(range(self.sweep.most))
 
+    @property
+    def beyond_elastic(self) -> bool:
+        """Whether its foils are more than elastic shells, so that they have a state of their own.
+
+        Then their true stiffness is measured; of elastic ones the pre-stressed one is that.
+        """
+        return self.material.law != "elastic"
+
     def with_fewest(self) -> StudyConfig:
         """The same study with a fixed number of realisations, those of the first round."""
         update = {"realisations": self.sweep.fewest, "realisations_max": None}

@@ -116,6 +116,11 @@ class Crumpled(Shape):
         """The shell that the recipe calls stress-free in this shape."""
         return super().relieved(removal or self.method.stress_removal)
 
+    @property
+    def beyond_elastic(self) -> bool:
+        """Whether the foil is more than an elastic shell, and so in a state of its own."""
+        return len(self.problem().terms) > 1
+
     def problem(self) -> Problem:
         """The potential energy of the foil, at the state in which it has arrived."""
         problem = super().problem()

@@ -7,8 +7,8 @@ import numpy as np
 from foilstudy.plot import style
 from foilstudy.plot.crumples import catalogue, read_history, typical_configuration
 
-_ENERGIES = ("bending", "membrane", "stabilisation", "kinetic")
-_LINES = ("-", "--", "-.", ":")
+_SHELL = ("bending", "membrane", "stabilisation")
+_LINES = ("-", "--", "-.", ":", (0, (5, 1)))
 
 
 @style.styled
@@ -59,14 +59,18 @@ def draw(crumple_paths):
 
 def _energies(ax, history) -> None:
     ax.set_yscale("log")
-    largest = max(np.nanmax(history[f"{name}_energy"]) for name in _ENERGIES)
+    energies = {name: history[f"{name}_energy"] for name in (*_SHELL, "kinetic")}
+    if "plastic_relief_energy" in history:  # negative, so what it leaves is drawn
+        of_shell = sum(energies[name] for name in _SHELL)
+        energies["left"] = of_shell + history["plastic_relief_energy"]
+    largest = max(np.nanmax(energy) for energy in energies.values())
     if not largest > 0:
         style.message_panel(ax, "no energy recorded")
         return
     ax.set_ylim(largest * 1e-8, largest * 3)
     labels = []
-    for name, colour, line in zip(_ENERGIES, style.ordered_colours(len(_ENERGIES)), _LINES):
-        energy = history[f"{name}_energy"]
+    colours = style.ordered_colours(len(energies))
+    for (name, energy), colour, line in zip(energies.items(), colours, _LINES):
         ax.plot(history["step"], np.where(energy > 0, energy, np.nan), color=colour, ls=line)
         labels.append((np.clip(energy[-1], largest * 2e-8, None), name, colour))
     style.label_ends(ax, 1.01, labels, gap=0.11)

@@ -9,7 +9,7 @@ import xarray as xr
 from foilstudy.base.numerals import nominal, percent, percent_range, times
 from foilstudy.base.reference import EXPLICIT_CODE
 from foilstudy.present.report.spread import Spread, by_direction, by_thickness
-from foilstudy.present.statistics.cells import relative_mesh_error
+from foilstudy.present.statistics.cells import energy_left, relative_mesh_error
 
 PUBLISHED_LOCKING = (
     "The published simulation carries mesh locking of its own: of frozen shapes, a 5 mm mesh of "
@@ -65,8 +65,7 @@ class MeshErrors:
 
 def assess_mesh(cube: xr.Dataset) -> MeshErrors:
     """Read the mesh errors of a study from its cube."""
-    internal = cube["membrane_energy"] + cube["bending_energy"] + cube["stabilisation_energy"]
-    share = by_thickness(cube["stabilisation_energy"] / internal)
+    share = by_thickness(cube["stabilisation_energy"] / energy_left(cube))
     if "static_stiffness_converged" not in cube:
         return MeshErrors({}, {}, share, {})
     change = cube["static_stiffness_converged"] / cube["static_stiffness"] - 1.0

@@ -31,6 +31,7 @@ from foilstudy.present.report import (
     mesh,
     modes,
     prestress,
+    true_state,
     viewer,
 )
 from foilstudy.present.report.alt import alt_text
@@ -161,7 +162,9 @@ def _content(files: StudyFiles, folder: Path) -> dict:
         "scope": _scope(cube, config),
         "grids": grid.stiffness_grids(summary),
         "grid_caption": grid.grid_caption(summary),
+        "true_grids": true_state.true_grids(cube),
         "sure_words": [
+            *true_state.true_findings(cube),
             *grid.sureness(summary),
             *grid.wish_findings(summary, config.get("sweep", {}).get("realisations_max")),
             *_other_physics(cube),

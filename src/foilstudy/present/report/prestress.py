@@ -12,7 +12,7 @@ from foilstudy.base.numerals import fixed, nominal, number, number_range, percen
 from foilstudy.present.comparison import comparable
 from foilstudy.present.report.laws import DirectionLaws
 from foilstudy.present.report.spread import Spread, by_direction, by_thickness
-from foilstudy.present.statistics.cells import measured, realised
+from foilstudy.present.statistics.cells import energy_left, measured, realised
 from foilstudy.present.statistics.powerlaw import SIMULATED
 
 _FREE, _STRESSED = SIMULATED["simulation"], SIMULATED["simulation pre-stressed"]
@@ -105,8 +105,7 @@ def relaxed_rows(cube: xr.Dataset) -> list[RelaxedRow]:
     """Read what relaxing again on refined meshes changes; empty where the study did not."""
     if "refined_strain_energy" not in cube:
         return []
-    before = cube["membrane_energy"] + cube["bending_energy"] + cube["stabilisation_energy"]
-    energies = by_thickness(cube["refined_strain_energy"] / before)
+    energies = by_thickness(cube["refined_strain_energy"] / energy_left(cube))
     stress_free = cube["refined_static_stiffness"] / cube["static_stiffness_converged"]
     prestressed = cube[_AGAIN] / cube[_STRESSED]
     return [

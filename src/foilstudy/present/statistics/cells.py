@@ -9,6 +9,9 @@ import numpy as np
 from foilstudy.base.outcome import NOT_NEEDED, USABLE
 from foilstudy.measure.verdicts import FAULTS
 
+PLASTIC_RELIEF = "plastic_relief_energy"
+"""Share of the energy that plastic strains take off: negative, and only where foil may yield."""
+
 
 @dataclass(frozen=True)
 class Samples:
@@ -115,6 +118,18 @@ def good(cube, name: str, **selection):
         NaN where the realisation is not `sound`, or the value is not finite and positive.
     """
     return usable(measured(cube, name, **selection))
+
+
+def energy_left(cube):
+    """Return the elastic energy in each shape, J: what plastic strains take off is taken off.
+
+    Returns
+    -------
+    xarray.DataArray
+        With dimensions thickness, overlength, seed.
+    """
+    total = cube["membrane_energy"] + cube["bending_energy"] + cube["stabilisation_energy"]
+    return total + cube[PLASTIC_RELIEF] if PLASTIC_RELIEF in cube else total
 
 
 def relative_mesh_error(cube):

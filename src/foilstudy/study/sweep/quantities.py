@@ -11,6 +11,7 @@ from foilstudy.base.record import Quantity
 
 _DIRECTION = ("direction",)
 _DYNAMIC = ("definition", "direction", "frequency")
+_INTERFACE = ("interface_dof", "interface_dof_in")
 _CONTROL = ("component", "row", "column")
 _NODE = ("component", "node_row", "node_column")
 _HISTORY = ("history",)
@@ -33,6 +34,9 @@ class Declared:
         From the one to the other.
     yielding : bool
         Whether there is one only where the material law lets the foil yield.
+    beyond_elastic : bool
+        Whether there is one only where a foil is more than an elastic shell, see
+        `StudyConfig.beyond_elastic`.
     """
 
     units: str
@@ -42,11 +46,17 @@ class Declared:
     cube_units: str = ""
     cube_scale: float = 1.0
     yielding: bool = False
+    beyond_elastic: bool = False
 
 
 def _length(words: str) -> Declared:
     """A length in m that the cube gives in mm."""
     return Declared("m", words, cube_units="mm", cube_scale=1e3)
+
+
+def _true(units: str, words: str, dims: tuple[str, ...] = ()) -> Declared:
+    """Of the foil as it stands; for an elastic one the pre-stressed stiffness says it."""
+    return Declared(units, words, dims, beyond_elastic=True)
 
 
 def _record_only(units: str, words: str, dims: tuple[str, ...]) -> Declared:
@@ -78,7 +88,33 @@ QUANTITIES: dict[str, Declared] = {
     "interface_stiffness": Declared(
         "N/m, N, N m",
         "stress-free interface stiffness, rotations in rad",
-        ("interface_dof", "interface_dof_in"),
+        _INTERFACE,
+    ),
+    "true_stiffness": _true(
+        "N/m", "static stiffness of the foil as it stands, other motions held", _DIRECTION
+    ),
+    "true_stiffness_free": _true(
+        "N/m", "static stiffness of the foil as it stands, other motions free", _DIRECTION
+    ),
+    "true_interface_stiffness": _true(
+        "N/m, N, N m",
+        "interface stiffness of the foil as it stands, rotations in rad",
+        _INTERFACE,
+    ),
+    "true_negative_eigenvalues": _true(
+        "1", "negative eigenvalues of the tangent behind it, rings held"
+    ),
+    "true_ring_negative_eigenvalues": _true(
+        "1", "motions of the top ring that it does not resist, the bottom ring held"
+    ),
+    "true_dynamic_stiffness_re": _true(
+        "N/m", "dynamic stiffness of the foil as it stands, real part", _DYNAMIC
+    ),
+    "true_dynamic_stiffness_im": _true(
+        "N/m", "dynamic stiffness of the foil as it stands, imaginary part", _DYNAMIC
+    ),
+    "true_eigenfrequency": _true(
+        "Hz", "eigenfrequency of the foil as it stands, rings clamped", ("mode",)
     ),
     "dynamic_stiffness_re": Declared("N/m", "dynamic stiffness, real part", _DYNAMIC),
     "dynamic_stiffness_im": Declared("N/m", "dynamic stiffness, imaginary part", _DYNAMIC),

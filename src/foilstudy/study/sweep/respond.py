@@ -20,6 +20,7 @@ from foilstudy.measure.verdicts import Evidence, flags, verdicts
 from foilstudy.model.patch import Patch
 from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.structures import stress_free_structure
+from foilstudy.pipeline.true_state import true_state
 from foilstudy.pipeline.vibration import surface_modes, vibration_of
 from foilstudy.study.sweep.origins import read_crumple, response_origin
 from foilstudy.study.sweep.outcome import Outcome, Values, outcome_of
@@ -43,7 +44,7 @@ def respond_job(task: ResponseTask, crumple_path: Path, path: Path) -> None:
 
     def work() -> Outcome:
         values = _measured(task, Crumpled.of_record(recorded, attributes))
-        missing = _without_prestress(values), _beyond_validity(task, values)
+        missing = _without_prestress(values), _beyond_validity(task, values), _unstable(values)
         words = filter(None, (outcome.message, *missing))
         return Outcome(outcome.status, "; ".join(words), values)
 
@@ -97,6 +98,17 @@ def _beyond_validity(task: ResponseTask, values: dict) -> str:
     )
 
 
+def _unstable(values: dict) -> str:
+    """What to say of an equilibrium about which nothing oscillates."""
+    count = values.get("true_negative_eigenvalues", 0)
+    if not count:
+        return ""
+    return (
+        f"no dynamic stiffness of the foil as it stands, as its tangent has {count:g} negative "
+        "eigenvalues"
+    )
+
+
 def _summary(values: dict) -> str:
     axial, radial = values["static_stiffness"]
     seconds = values["seconds_static"] + values["seconds_dynamic"]
@@ -108,7 +120,10 @@ def _measured(task: ResponseTask, crumpled: Crumpled) -> Values:
         structure = stress_free_structure(crumpled)
         values = _static(crumpled, structure, task)
     with measured() as dynamic:
-        values |= _dynamic(structure, dynamics_of(task.dynamics), crumpled.patch)
+        options = dynamics_of(task.dynamics)
+        values |= _dynamic(structure, options, crumpled.patch)
+        if crumpled.beyond_elastic:
+            values |= _true(crumpled, options)
     return values | {"seconds_static": static.seconds, "seconds_dynamic": dynamic.seconds}
 
 
@@ -128,6 +143,29 @@ def _static(crumpled: Crumpled, structure: Structure, task: ResponseTask) -> Val
         "interface_stiffness": interface,
         "prestressed_stiffness": _prestressed(crumpled),
     }
+
+
+def _true(crumpled: Crumpled, options: DynamicsOptions) -> Values:
+    """Nothing where the tangent is singular, which the message says of the pre-stressed one."""
+    try:
+        state = true_state(crumpled, options)
+    except SolveError as error:
+        print(f"no true stiffness: {error}")
+        return {}
+    values: Values = {
+        "true_stiffness": state.stiffness,
+        "true_stiffness_free": free_stiffness(state.interface),
+        "true_interface_stiffness": state.interface,
+        "true_negative_eigenvalues": float(state.negative_eigenvalues),
+        "true_ring_negative_eigenvalues": float(state.ring_negative_eigenvalues),
+    }
+    if state.vibration:
+        values |= {
+            "true_dynamic_stiffness_re": state.vibration.dynamic_stiffness.real,
+            "true_dynamic_stiffness_im": state.vibration.dynamic_stiffness.imag,
+            "true_eigenfrequency": state.vibration.eigenfrequencies,
+        }
+    return values
 
 
 def _dynamic(structure: Structure, options: DynamicsOptions, patch: Patch) -> Values:

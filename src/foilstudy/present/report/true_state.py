@@ -1,0 +1,105 @@
+"""The stiffness of the foils as they stand, beside the stress-free one that was published."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from foilstudy.base.numerals import plural
+from foilstudy.present.statistics.cells import measured
+
+_TRUE = "true_stiffness"
+
+
+@dataclass(frozen=True)
+class TrueCell:
+    """One configuration in one direction.
+
+    Attributes
+    ----------
+    mean : float
+        N/m; NaN without a value.
+    scatter : float
+        Coefficient of variation over the realisations; NaN of a single one.
+    n : int
+        Realisations that have one.
+    """
+
+    mean: float
+    scatter: float
+    n: int
+
+
+@dataclass(frozen=True)
+class TrueRow:
+    """One thickness."""
+
+    thickness_um: float
+    cells: tuple[TrueCell, ...]
+
+
+@dataclass(frozen=True)
+class TrueGrid:
+    """One direction; its columns are the overlengths, in per cent."""
+
+    direction: str
+    overlengths_percent: tuple[float, ...]
+    rows: tuple[TrueRow, ...]
+
+
+def true_grids(cube: xr.Dataset) -> tuple[TrueGrid, ...]:
+    """A grid for each direction; none where the foils are elastic shells and nothing more."""
+    if _TRUE not in cube:
+        return ()
+    values = measured(cube, _TRUE)
+    overlengths = tuple(map(float, cube["overlength"].values))
+    return tuple(
+        TrueGrid(
+            str(direction),
+            overlengths,
+            tuple(
+                TrueRow(
+                    float(thickness),
+                    tuple(
+                        _cell(foils.sel(overlength=o, direction=direction).values)
+                        for o in cube["overlength"].values
+                    ),
+                )
+                for thickness in cube["thickness"].values
+                for foils in (values.sel(thickness=thickness),)
+            ),
+        )
+        for direction in cube["direction"].values
+    )
+
+
+def _cell(values: np.ndarray) -> TrueCell:
+    known = values[np.isfinite(values)]
+    if not known.size:
+        return TrueCell(np.nan, np.nan, 0)
+    mean = float(known.mean())
+    scatter = float(known.std(ddof=1) / mean) if known.size > 1 else np.nan
+    return TrueCell(mean, scatter, known.size)
+
+
+def true_findings(cube: xr.Dataset) -> list[str]:
+    """Say of how many foils the ring or the foil itself would run away, if of any."""
+    if _TRUE not in cube:
+        return []
+    loose = measured(cube, "true_ring_negative_eigenvalues")
+    known, running = int(np.isfinite(loose).sum()), int((loose > 0).sum())
+    unstable = int((measured(cube, "true_negative_eigenvalues") > 0).sum())
+    sentences = []
+    if running:
+        sentences.append(
+            f"Of {plural(known, 'foil')} as they stand {running} would push a free top ring out of "
+            "its place: the forces that hold them there leave it a motion without resistance."
+        )
+    if unstable:
+        sentences.append(
+            f"{plural(unstable, 'foil')} rest in no stable equilibrium, so that nothing vibrates "
+            "about it."
+        )
+    return sentences
