@@ -115,10 +115,11 @@ def _scope(cube: xr.Dataset, facts: LinkFacts) -> str:
     text = f"Overlength {nominal(facts.overlength_percent)} %"
     if case := studied_case(cube):
         text = (
-            f"Cylinder {nominal(case.diameter_mm)} mm in diameter and {nominal(facts.height_mm)} mm "
-            f"high, crumpled into a gap of {nominal(case.gap_height_mm)} mm (overlength "
-            f"{nominal(facts.overlength_percent)} %); E = {nominal(case.youngs_modulus_mpa)} MPa, "
-            f"ν = {nominal(case.poisson_ratio)}, {nominal(case.density_kg_m3)} kg/m³"
+            f"Cylinder {nominal(case.diameter_mm)} mm in diameter and "
+            f"{nominal(facts.height_mm)} mm high, crumpled into a gap of "
+            f"{nominal(case.gap_height_mm)} mm (overlength {nominal(facts.overlength_percent)} %); "
+            f"E = {nominal(case.youngs_modulus_mpa)} MPa, ν = {nominal(case.poisson_ratio)}, "
+            f"{nominal(case.density_kg_m3)} kg/m³"
         )
     return f"{text}. Stress-free in its crumpled shape; both rings rigid; in vacuum."
 
@@ -172,7 +173,8 @@ def _amplitude(direction: Direction, facts: LinkFacts) -> str:
     value = direction.amplitude
     if value is None or not value.known:
         return _NOT_COMPUTED
-    return f"{number(value.interval.mean, 2)} {facts.amplitude_unit} ({_span(value.least, value.most)})"
+    ends = _span(value.least, value.most)
+    return f"{number(value.interval.mean, 2)} {facts.amplitude_unit} ({ends})"
 
 
 def _static_words(facts: LinkFacts) -> str:
