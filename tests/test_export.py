@@ -1,6 +1,7 @@
 """Each export format, read back by its own library."""
 
 import csv
+import re
 from types import SimpleNamespace
 
 import meshio
@@ -451,6 +452,78 @@ def test_calculix_deck_states_foil_steps_and_what_to_expect(contents, folder):
     assert f"axial {axial:.6g} N/m" in text
 
 
+# --- superelements -------------------------------------------------------------------------------
+
+
+def read_matrix(lines):
+    """A symmetric matrix from its triangle, and the (node, freedom) of its rows in their order."""
+    rows = [[field.strip() for field in line.split(",")] for line in lines]
+    assert all(len(row[4]) <= 20 for row in rows)
+    pairs = [((int(r[0]), int(r[1])), (int(r[2]), int(r[3])), float(r[4])) for r in rows]
+    places = sorted({place for i, j, _ in pairs for place in (i, j)})
+    at = {place: k for k, place in enumerate(places)}
+    matrix = np.zeros((len(places), len(places)))
+    for i, j, value in pairs:
+        assert matrix[at[i], at[j]] == 0  # each entry once
+        matrix[at[i], at[j]] = matrix[at[j], at[i]] = value
+    return matrix, places
+
+
+def read_abaqus(path):
+    """Matrices of a deck by their names, and which the assembly takes for what."""
+    lines = [line for line in path.read_text().splitlines() if not line.startswith("**")]
+    found = {}
+    for block in "\n".join(lines).split("*MATRIX INPUT, NAME=")[1:]:
+        head, *rest = block.splitlines()
+        data = [line for line in rest if not line.startswith("*")]
+        found[head.removesuffix(", TYPE=SYMMETRIC")] = read_matrix(data)
+    (assembly,) = (line for line in lines if line.startswith("*MATRIX ASSEMBLE"))
+    return {role: found[name] for role, name in re.findall(r", ([A-Z ]+)=(\w+)", assembly)}
+
+
+def test_the_abaqus_superelement_is_the_reduced_model(contents, folder):
+    found = read_abaqus(folder / "superelement_abaqus.inp")
+    (k, places), (m, _), (c, _) = (found[r] for r in ("STIFFNESS", "MASS", "VISCOUS DAMPING"))
+    assert places[:INTERFACE] == [(node, 1 + d) for node in (9001, 9002) for d in range(6)]
+    np.testing.assert_allclose(k, contents.model.stiffness, rtol=1e-13, atol=1e-98)
+    assert_same_stiffness(
+        second_order_stiffness(k, m, c, contents.frequencies), contents.dynamic_stiffness
+    )
+
+
+def test_the_calculix_superelement_is_the_reduced_model(contents, folder):
+    """Its corners moved as rigid bodies do, which is what its deck says of them."""
+    deck = (folder / "superelement.inp").read_text().splitlines()
+    rows = [line.split(",") for line in deck if re.match(r"9\d+(, [-\d.e+]+){3}$", line)]
+    nodes = {int(n): np.array([float(v) for v in x]) for n, *x in rows if "." in x[0]}
+    (k, places), (m, same) = (
+        read_matrix((folder / f"superelement.{kind}").read_text().splitlines())
+        for kind in ("stiff", "mass")
+    )
+    assert places == same and all(freedom <= 3 for _, freedom in places)
+    assert len({node for node, _ in places}) <= 256 and {node for node, _ in places} <= set(nodes)
+    joined = np.zeros((len(places), len(contents.model.stiffness)))
+    corners = [list(map(int, line.split(", "))) for line in deck if re.match(r"[\d, ]+$", line)]
+    for ring, (reference, three) in enumerate(zip((9001, 9002), corners)):
+        assert f"*RIGID BODY, NSET=FOIL_{('BOTTOM', 'TOP')[ring]}, REF NODE={reference}, ROT " \
+            f"NODE={reference + 2}" in deck  # fmt: skip
+        for node in three:
+            arm = nodes[node] - nodes[reference]
+            assert np.linalg.norm(arm) == pytest.approx(DIAMETER / 2)
+            for axis in range(3):
+                row = places.index((node, 1 + axis))
+                joined[row, 6 * ring + axis] = 1
+                turns = np.cross(np.eye(3), arm)[:, axis]  # rotation x arm
+                joined[row, 6 * ring + 3 : 6 * ring + 6] = turns
+    inner = [row for row, (node, _) in enumerate(places) if node >= 9011]
+    joined[inner, INTERFACE:] = np.eye(len(inner))
+    for matrix, own in ((k, contents.model.stiffness), (m, contents.model.mass)):
+        scale = np.sqrt(np.outer(np.diag(own), np.diag(own)))
+        assert np.abs((joined.T @ matrix @ joined - own) / scale).max() < 1e-11
+    values = np.linalg.eigvalsh(k)  # six rigid motions, and three strains of each three corners
+    assert (np.abs(values[:12]) < 1e-9 * values[-1]).all() and values[12] > 0
+
+
 # --- refusals, realisations, the command line and the study --------------------------------------
 
 
@@ -560,7 +633,7 @@ def test_command_line_writes_what_it_can_and_says_what_it_could_not(realisation,
     main(["export", str(realisation.folder), "--format=all"])
     out, err = capsys.readouterr()
     folder = realisation.folder / "exported"
-    refused = ["reduced.mat", "reduced.nc"]
+    refused = ["reduced.mat", "reduced.nc", "superelement_abaqus.inp"]
     names = {kind.filename for kind in FORMATS.choices.values()} - set(refused)
     assert {path.name for path in folder.iterdir()} == names
     assert sorted(out.splitlines()) == sorted(f"wrote {folder / name}" for name in names)

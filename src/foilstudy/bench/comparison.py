@@ -18,7 +18,7 @@ from foilstudy.bench.estimation.static import STATIC_BAND_HZ, Static
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["Comparison", "Configuration", "Excursion", "Simulated", "frac", "simulated"]
+__all__ = ["Comparison", "Configuration", "Excursion", "Simulated", "frac", "placed", "simulated"]
 
 
 @dataclass(frozen=True)
@@ -85,8 +85,7 @@ def simulated(cube: xr.Dataset, wanted: Configuration) -> Simulated:
                 f"{getattr(wanted, name)!r} is no {name} of the cube; {hint}use one of "
                 f"{', '.join(known)}."
             )
-    i = _place(cube["thickness"].values, wanted.thickness_um, "thickness", "um")
-    j = _place(cube["reference_height"].values, wanted.height_mm, "height", "mm")
+    i, j = placed(cube, wanted.thickness_um, wanted.height_mm)
     cell = cube.isel(thickness=i, overlength=j).sel(direction=wanted.direction)
     cell = cell.isel(seed=np.flatnonzero(cell["status"].isin(USABLE).values))
     curves = cell["dynamic_stiffness"].sel(definition=wanted.definition)
@@ -101,6 +100,22 @@ def simulated(cube: xr.Dataset, wanted: Configuration) -> Simulated:
         thickness, height, float(cell["overlength"]), wanted.direction, wanted.definition,
         cell["frequency"].to_numpy(), curves, MeanInterval.of(cell["static_stiffness"].to_numpy()),
     )  # fmt: skip
+
+
+def placed(
+    cube: xr.Dataset, thickness_um: float | None, height_mm: float | None
+) -> tuple[int, int]:
+    """Where a configuration stands along thickness and overlength of a cube.
+
+    Raises
+    ------
+    Refusal
+        If the cube does not have it, or has several and none is named.
+    """
+    return (
+        _place(cube["thickness"].values, thickness_um, "thickness", "um"),
+        _place(cube["reference_height"].values, height_mm, "height", "mm"),
+    )
 
 
 def _place(values: np.ndarray, wanted: float | None, name: str, unit: str) -> int:

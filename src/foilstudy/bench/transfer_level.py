@@ -11,7 +11,15 @@ import numpy as np
 
 from foilstudy.base.errors import Refusal
 
-__all__ = ["ThirdOctave", "blocked", "level", "linear", "third_octaves"]
+__all__ = [
+    "ThirdOctave",
+    "band_levels",
+    "blocked",
+    "level",
+    "linear",
+    "nominal_hz",
+    "third_octaves",
+]
 
 REFERENCE = 1.0
 """N/m."""
@@ -20,6 +28,8 @@ LEAST_LINES = 5
 BLOCKING_DB = 20.0
 """By how much the acceleration of the output has to stay below that of the input, for the force
 on the output to be the blocking force."""
+_PREFERRED = (1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0)
+"""Of ISO 266."""
 LINEAR_DB = 1.5
 """By how much the levels of two excitations may differ that are 10 dB apart."""
 
@@ -80,6 +90,54 @@ def third_octaves(frequencies: np.ndarray, stiffness: np.ndarray) -> list[ThirdO
         value = float(10 * np.log10(mean)) if count >= LEAST_LINES else np.nan
         found.append(ThirdOctave(float(10 ** (number / 10)), value, count))
     return found
+
+
+def band_levels(frequencies: np.ndarray, stiffness: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Levels of one-third octaves from any rising grid, such as a logarithmic one.
+
+    The mean of |k|^2 over the frequency, which is taken as straight between the frequencies of the
+    grid. Bands that the grid covers whole, with at least `LEAST_LINES` frequencies in them.
+
+    Parameters
+    ----------
+    frequencies : ndarray, shape (f,)
+        Hz, positive.
+    stiffness : ndarray of complex, shape (..., f)
+        N/m; NaN where it is not known.
+
+    Returns
+    -------
+    centres : ndarray, shape (bands,)
+        Hz.
+    levels : ndarray, shape (..., bands)
+        dB re 1 N/m; NaN where a value in the band is not known.
+    """
+    frequencies = np.asarray(frequencies, float)
+    tenths = 10 * np.log10(frequencies[[0, -1]])
+    numbers = np.arange(np.ceil(tenths[0]), np.floor(tenths[1]) + 1)
+    ends = 10 ** ((numbers[:, None] + [-0.5, 0.5]) / 10)
+    inside = (frequencies >= ends[:, :1]) & (frequencies <= ends[:, 1:])
+    whole = (ends[:, 0] >= frequencies[0]) & (ends[:, 1] <= frequencies[-1])
+    kept = whole & (inside.sum(axis=1) >= LEAST_LINES)
+    power = np.abs(np.asarray(stiffness)) ** 2 / REFERENCE**2
+    levels = np.empty((*power.shape[:-1], int(kept.sum())))
+    for k, (low, high) in enumerate(ends[kept]):
+        levels[..., k] = _mean_level(frequencies, power, low, high)
+    return 10 ** (numbers[kept] / 10), levels
+
+
+def _mean_level(frequencies: np.ndarray, power: np.ndarray, low: float, high: float) -> np.ndarray:
+    between = (frequencies > low) & (frequencies < high)
+    grid = np.concatenate([[low], frequencies[between], [high]])
+    flat = power.reshape(-1, frequencies.size)
+    values = np.array([np.interp(grid, frequencies, each) for each in flat])
+    return 10 * np.log10(np.trapezoid(values, grid) / (high - low)).reshape(power.shape[:-1])
+
+
+def nominal_hz(centre_hz: float) -> float:
+    """Name of a band: its midband frequency in the preferred steps 1, 1.25, 1.6, ... 8."""
+    number = round(10 * np.log10(centre_hz))
+    return float(f"{_PREFERRED[number % 10] * 10.0 ** (number // 10):.4g}")
 
 
 def blocked(transmissibility: np.ndarray, least_db: float = BLOCKING_DB) -> np.ndarray:

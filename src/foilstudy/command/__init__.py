@@ -18,6 +18,7 @@ from foilstudy.base.errors import Refusal
 
 from .check import check
 from .compare import compare
+from .datasheet import datasheet
 from .export import export
 from .report import report
 from .run import run
@@ -37,7 +38,7 @@ app = App(
     result_action="return_value",
 )
 app.register_install_completion_command()
-for command in (check, run, export, report, compare):
+for command in (check, run, export, report, compare, datasheet):
     app.command(command, help_epilogue="")  # else that of the whole
 
 

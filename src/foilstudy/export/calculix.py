@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from foilstudy.export.contents import Contents, surface_grid
+from foilstudy.export.decks import comment
 from foilstudy.measure.stiffness import fixed_stiffness
 from foilstudy.measure.stiffness.directional import MOTIONS
 
@@ -57,7 +58,7 @@ def write(contents: Contents, path: Path) -> None:
 def _heading(contents: Contents) -> Iterator[str]:
     axial, radial = fixed_stiffness(contents.model.static_stiffness)
     frequencies = ", ".join(f"{f:.2f}" for f in contents.eigenfrequencies[:6])
-    yield from _comment(
+    yield from comment(
         f"""
         Crumpled foil between two rigid rings, free of stress in this shape. Units: m, N, kg, s.
         Run: ccx NAME (without .inp); the results are in NAME.dat (forces) and NAME.frd (modes).
@@ -78,15 +79,9 @@ def _heading(contents: Contents) -> Iterator[str]:
         {frequencies} Hz.
         The two codes agree as the mesh is refined (foilstudy export --refinements), and differ on
         a given one by their mesh errors.
-        """
+        """,
+        contents.provenance,
     )
-    for name, text in contents.provenance.items():
-        yield from _comment(f"{name}: {text}")
-
-
-def _comment(text: str) -> Iterator[str]:
-    for line in text.strip().splitlines():
-        yield f"** {line.strip()}".rstrip()
 
 
 def _nodes(contents: Contents, grid: np.ndarray, rings: _Rings) -> Iterator[str]:
@@ -136,7 +131,7 @@ def _section(contents: Contents, rings: _Rings) -> Iterator[str]:
 
 
 def _static_step(rings: _Rings, axis: int) -> Iterator[str]:
-    yield from _comment(f"unit motion of the bottom ring along {_AXES[axis]}")
+    yield from comment(f"unit motion of the bottom ring along {_AXES[axis]}")
     # all else stays held from the model; taking conditions back and giving them again (OP=NEW)
     # makes version 2.20 lose the rotations of the edges
     yield from ("*STEP", "*STATIC", "*BOUNDARY")
@@ -149,5 +144,5 @@ def _static_step(rings: _Rings, axis: int) -> Iterator[str]:
 
 
 def _frequency_step() -> Iterator[str]:
-    yield from _comment("eigenfrequencies with both rings held")
+    yield from comment("eigenfrequencies with both rings held")
     yield from ("*STEP", "*FREQUENCY", f"{_EIGENFREQUENCIES}", "*NODE FILE", "U", "*END STEP")

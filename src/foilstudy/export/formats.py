@@ -98,6 +98,26 @@ FORMATS = Registry(
             "shell model with static and frequency steps: CalculiX",
             "calculix.inp",
         ),
+        "abaqus": Format(
+            "export.abaqus:write",
+            "reduced model as a superelement with damping: Abaqus, matrix input",
+            "superelement_abaqus.inp",
+        ),
+        "ccx": Format(
+            "export.calculix_superelement:write",
+            "reduced model as a superelement, of ccx_stiffness and ccx_mass: CalculiX",
+            "superelement.inp",
+        ),
+        "ccx_stiffness": Format(
+            "export.calculix_superelement:write_stiffness",
+            "stiffness matrix of that superelement: CalculiX",
+            "superelement.stiff",
+        ),
+        "ccx_mass": Format(
+            "export.calculix_superelement:write_mass",
+            "mass matrix of that superelement: CalculiX",
+            "superelement.mass",
+        ),
     },
 )
 """Functions ``write(contents, path)``."""

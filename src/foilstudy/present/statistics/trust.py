@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -70,6 +70,11 @@ class Trust:
     def doubted(self):
         """Known stiffnesses that are not trusted."""
         return self.unresolved | self.folded | self.unstated | self.inaccurate | self.flawed
+
+    def at(self, thickness: int, overlength: int) -> Trust:
+        """The verdict on one configuration, by its places in the cube."""
+        place = {"thickness": thickness, "overlength": overlength}
+        return Trust(*(getattr(self, each.name).isel(place) for each in fields(self)))
 
 
 def assess_trust(cube) -> Trust:
