@@ -34,7 +34,7 @@ from foilstudy.study.sweep.origins import (
     refuse_departure,
     response_origin,
 )
-from foilstudy.study.sweep.quantities import QUANTITIES
+from foilstudy.study.sweep.quantities import QUANTITIES, Declared
 from foilstudy.study.sweep.rounds import recorded_values, wanted_cells
 
 _CELL = ("thickness", "overlength", "seed")
@@ -63,10 +63,7 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
     """
     wanted = wanted_cells(study, lambda cell: recorded_values(study, results, cell))
     coordinates = _coordinates(study, wanted)
-    elastic = study.material.law == "elastic"
-    variables = {
-        name: q for name, q in QUANTITIES.items() if q.in_cube and not (elastic and q.yielding)
-    }
+    variables = {name: q for name, q in QUANTITIES.items() if q.in_cube and _has(study, q)}
     sizes = {name: len(values) for name, (_, values, _) in coordinates.items()}
     cells = tuple(sizes[name] for name in _CELL)
     data = {
@@ -135,6 +132,12 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
     cube.attrs[CONTENT] = digest_of({name: v.values for name, v in cube.variables.items()})
     _write(cube, path)
     return cube
+
+
+def _has(study: StudyConfig, quantity: Declared) -> bool:
+    """Whether there is such a quantity where a study is configured as it is."""
+    yields, retries = study.material.law != "elastic", study.method.retries > 0
+    return (yields or not quantity.yielding) and (retries or not quantity.retrying)
 
 
 def _coordinates(

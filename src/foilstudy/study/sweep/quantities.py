@@ -33,6 +33,8 @@ class Declared:
         From the one to the other.
     yielding : bool
         Whether there is one only where the material law lets the foil yield.
+    retrying : bool
+        Whether there is one only where a crumple that fails is tried again.
     """
 
     units: str
@@ -42,6 +44,7 @@ class Declared:
     cube_units: str = ""
     cube_scale: float = 1.0
     yielding: bool = False
+    retrying: bool = False
 
 
 def _length(words: str) -> Declared:
@@ -96,6 +99,9 @@ QUANTITIES: dict[str, Declared] = {
     "radial_displacement_rms": _length("root mean square radial displacement"),
     "equilibrium_residual": Declared("1", "force on the free foil over force on the rings"),
     "negative_eigenvalues": Declared("1", "negative eigenvalues of the tangent at the end"),
+    "attempt": Declared(
+        "1", "attempt that led here: 1 as configured, more with safer settings", retrying=True
+    ),
     "steps": Declared("1", "pseudo-time steps, ramp included"),
     "newton_steps": Declared("1", "quasi-Newton steps after them"),
     "hessians": Declared("1", "tangents formed for them"),
