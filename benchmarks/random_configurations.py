@@ -1,6 +1,9 @@
-"""Random valid configurations, crumpled and measured; prints every failure and what took long.
+"""Random valid configurations, crumpled and measured; tells every failure and what took long.
 
-    python benchmarks/random_configurations.py 100 [first]
+    python benchmarks/random_configurations.py 500 [table.csv]
+
+The table (`results/limits/random.csv` if left out) has a row for each, seeds 0, 1, 2, ...; what it
+has already is not done again, so that a run may be stopped and gone on with.
 
 Draws foils from the whole range of a study's configuration, extreme corners included: diameters of
 1 to 10 000 mm, any thickness down to 0.1 um, soft and stiff, Poisson's ratios of -0.9 to 0.5, every
@@ -11,11 +14,13 @@ so that one that dies in native code is told by its signal.
 
 from __future__ import annotations
 
+import csv
 import json
 import multiprocessing
+import os
 import sys
 import tempfile
-import time
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -27,6 +32,21 @@ CORNERS = {
     "youngs_modulus_mpa": (0.01, 650.0, 1e6),
 }
 SECONDS_MAX = 120
+"""Of the processor; a run that takes ten times as long by the clock is ended."""
+TABLE = Path(__file__).parents[1] / "results/limits/random.csv"
+COLUMNS = (
+    "seed",
+    "crumple",
+    "status",
+    "verdicts",
+    "problems",
+    "diameter_mm",
+    "thickness_um",
+    "overlength_percent",
+    "ramp_steps",
+    "seconds",
+    "message",
+)
 _TRUE_OF_SLENDER = "too thin for its mesh"
 _REDUCTIONS = ("rational_krylov", "rational_krylov", "hintz_herting", "craig_bampton", "guyan")
 
@@ -105,6 +125,7 @@ def outcome(content: dict, folder: Path) -> dict:
     """Status, message and numbers of both jobs."""
     from foilstudy.base.record import read_record
     from foilstudy.config import load_config
+    from foilstudy.measure.verdicts import names_of
     from foilstudy.study.sweep.crumple import crumple_job
     from foilstudy.study.sweep.respond import respond_job
 
@@ -112,15 +133,17 @@ def outcome(content: dict, folder: Path) -> dict:
     (cell,) = study.cells()
     crumple_job(study.crumple_task(cell), folder / "crumple.nc")
     respond_job(study.response_task(cell), folder / "crumple.nc", folder / "response.nc")
-    _, crumpled = read_record(folder / "crumple.nc")
+    shape, crumpled = read_record(folder / "crumple.nc")
     values, attributes = read_record(folder / "response.nc")
     found = problems(values, attributes, content["dynamics"])
+    found += astray(shape, crumpled["status"], content)
     slenderness = 1e3 * content["mesh"]["element_size_mm"] / content["sweep"]["thickness_um"][0]
     if _TRUE_OF_SLENDER in attributes["message"] and slenderness**2 > 1e12:
         found = []  # what it says is so: a double holds 16 digits
     return {
         "crumple": crumpled["status"],
         "status": attributes["status"],
+        "verdicts": " ".join(names_of(values["verdict"])),
         "message": attributes["message"],
         "problems": found,
     }
@@ -145,6 +168,35 @@ def problems(values: dict, attributes: dict, dynamics: dict) -> list[str]:
     return found
 
 
+_MAY_BE_UNKNOWN = ("negative_eigenvalues", "broad_wave_share", "calmer_half", "alternation")
+"""Not counted before a relaxation settles, or not defined of a foil that is hardly displaced."""
+_FAR = 1.5
+"""Distance from the middle of the gap at which no foil is, over half the diagonal of the cylinder
+that it was: a motion that has diverged."""
+
+
+def astray(values: dict, status: str, content: dict) -> list[str]:
+    """What is wrong of a shape that is said to be one."""
+    if status not in ("converged", "not_converged"):
+        return []
+    found = [
+        f"{name} is no number, unsaid"
+        for name, value in values.items()
+        if name not in _MAY_BE_UNKNOWN and not np.isfinite(value).all()
+    ]
+    gap = content["sheet"]["gap_height_mm"] * 1e-3
+    (height,) = content["sweep"]["reference_height_mm"]
+    half = 0.5e-3 * np.hypot(content["sheet"]["diameter_mm"], height)
+    x, y, z = values["surface"]
+    far = np.sqrt(x**2 + y**2 + (z - gap / 2) ** 2).max() / half
+    if not far < _FAR:
+        found.append(f"the foil is {far:.1e} times as far off as its cylinder was, unsaid")
+    tolerance = 1e-8  # the default
+    if status == "converged" and not values["equilibrium_residual"] <= tolerance:
+        found.append(f"called converged at a residual of {values['equilibrium_residual']:.1e}")
+    return found
+
+
 def _run(content: dict, sender) -> None:
     with tempfile.TemporaryDirectory() as folder:
         try:
@@ -154,45 +206,87 @@ def _run(content: dict, sender) -> None:
 
 
 def judged(seed: int) -> dict:
-    """The outcome of one draw, in a process of its own, with its time."""
+    """The outcome of one draw, in a process of its own, with its processor time."""
     content = drawn(seed)
     receiver, sender = multiprocessing.Pipe(duplex=False)
-    start = time.perf_counter()
+    before = _children_seconds()
     process = multiprocessing.get_context("fork").Process(target=_run, args=(content, sender))
     process.start()
     sender.close()
     try:
-        result = receiver.recv() if receiver.poll(2 * SECONDS_MAX) else {"problems": ["no end"]}
+        result = receiver.recv() if receiver.poll(10 * SECONDS_MAX) else {"problems": ["no end"]}
     except EOFError:
         result = {"problems": []}
     process.join(1)
     if process.is_alive():
         process.kill()
+        process.join()
     elif process.exitcode:
         result["problems"].append(f"died with exit code {process.exitcode}")
-    result["seconds"] = time.perf_counter() - start
+    result["seconds"] = _children_seconds() - before
     if result["seconds"] > SECONDS_MAX:
         result["problems"].append(f"took {result['seconds']:.0f} s")
     return result | {"seed": seed, "content": content}
 
 
+def _children_seconds() -> float:
+    times = os.times()
+    return times.children_user + times.children_system
+
+
+def row_of(result: dict) -> dict:
+    """What the table says of an outcome."""
+    content = result["content"]
+    gap, (height,) = content["sheet"]["gap_height_mm"], content["sweep"]["reference_height_mm"]
+    return {
+        **{name: result.get(name, "") for name in ("seed", "crumple", "status", "verdicts")},
+        "problems": "; ".join(result["problems"]),
+        "diameter_mm": f"{content['sheet']['diameter_mm']:.4g}",
+        "thickness_um": f"{content['sweep']['thickness_um'][0]:.4g}",
+        "overlength_percent": f"{100 * (height / gap - 1):.3g}",
+        "ramp_steps": content["relaxation"]["ramp_steps"],
+        "seconds": f"{result['seconds']:.1f}",
+        "message": result.get("message", ""),
+    }
+
+
 def main() -> None:
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 20
-    first = int(sys.argv[2]) if len(sys.argv) > 2 else 0
+    path = Path(sys.argv[2]) if len(sys.argv) > 2 else TABLE
     import foilstudy.config
     import foilstudy.study.sweep.respond  # noqa: F401  loaded once, for all children
 
-    statuses, wrong, longest = {}, 0, 0.0
-    for seed in range(first, first + count):
-        result = judged(seed)
-        key = f"{result.get('crumple')}/{result.get('status')}"
-        statuses[key] = statuses.get(key, 0) + 1
-        longest = max(longest, result["seconds"])
-        if result["problems"]:
-            wrong += 1
-            print(f"{seed}: {'; '.join(result['problems'])}\n   {json.dumps(result['content'])}")
-            sys.stdout.flush()
-    print(f"{count} drawn, {wrong} with problems, longest {longest:.1f} s: {statuses}")
+    done = set()
+    if path.is_file():
+        with path.open(newline="") as file:
+            done = {int(row["seed"]) for row in csv.DictReader(file)}
+    with path.open("a", newline="", buffering=1) as file:
+        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+        if not done:
+            writer.writeheader()
+        for seed in sorted(set(range(count)) - done):
+            result = judged(seed)
+            writer.writerow(row_of(result))
+            if result["problems"]:
+                print(
+                    f"{seed}: {'; '.join(result['problems'])}\n   {json.dumps(result['content'])}"
+                )
+                sys.stdout.flush()
+    print(_summary(path))
+
+
+def _summary(path: Path) -> str:
+    """Of all rows, in two sentences."""
+    with path.open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    ends = Counter(f"{row['crumple']}/{row['status']}" for row in rows)
+    verdicts = Counter(name for row in rows for name in row["verdicts"].split())
+    wrong = sum(bool(row["problems"]) for row in rows)
+    longest = max(float(row["seconds"]) for row in rows)
+    return (
+        f"{len(rows)} drawn, {wrong} with problems, longest {longest:.1f} s: {dict(ends)}.\n"
+        f"Verdicts: {dict(verdicts)}."
+    )
 
 
 if __name__ == "__main__":

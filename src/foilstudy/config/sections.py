@@ -414,6 +414,16 @@ class Method(Section):
     damping: choice_of(DAMPINGS) = registry_field(DAMPINGS, "adaptive_viscous")
     search: choice_of(SEARCHES) = registry_field(SEARCHES, "quasi_newton")
     stress_removal: choice_of(STRESS_REMOVALS) = registry_field(STRESS_REMOVALS, "reset")
+    retries: int = unit_field(
+        "1",
+        "Further attempts at a crumple that has diverged, not converged, folded as a whole or come "
+        "to a saddle, each with safer settings: the spectral mass with more safety, "
+        "`adaptive_viscous`, a slower spread ramp. Which attempt a crumple is of is recorded as "
+        "`attempt`. By default a failure is flagged and stays one.",
+        0,
+        ge=0,
+        le=3,
+    )
 
 
 class Stiffness(Section):

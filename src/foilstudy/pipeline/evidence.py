@@ -33,8 +33,28 @@ def sensors(shape: Shape) -> dict[str, float]:
     }
 
 
+def seen_in(shape: Shape, status: str, negative_eigenvalues: int | None) -> Evidence:
+    """Of a shape in memory, without its stiffness, which takes factorisations."""
+    return _judged(shape, status, negative_eigenvalues, dict)
+
+
 def evidence_of(shape: Shape, status: str, negative_eigenvalues: int | None) -> Evidence:
     """Of a shape in memory, with its stiffness on the mesh that it has."""
+
+    def stiffnesses() -> dict[str, np.ndarray]:
+        return {
+            "static_stiffness": _stiffness(lambda: stress_free_stiffness(shape)),
+            "prestressed_stiffness": _stiffness(
+                lambda: prestressed_stiffness(shape.problem(), shape.points)
+            ),
+        }
+
+    return _judged(shape, status, negative_eigenvalues, stiffnesses)
+
+
+def _judged(
+    shape: Shape, status: str, negative_eigenvalues: int | None, more: Callable[[], dict]
+) -> Evidence:
     if not np.isfinite(shape.points).all():
         return Evidence("diverged")
     energies = shape.energies()
@@ -42,12 +62,8 @@ def evidence_of(shape: Shape, status: str, negative_eigenvalues: int | None) -> 
         "membrane_energy": energies.membrane,
         "bending_energy": energies.bending,
         "negative_eigenvalues": np.nan if negative_eigenvalues is None else negative_eigenvalues,
-        "static_stiffness": _stiffness(lambda: stress_free_stiffness(shape)),
-        "prestressed_stiffness": _stiffness(
-            lambda: prestressed_stiffness(shape.problem(), shape.points)
-        ),
     }
-    return Evidence.of(status, values)
+    return Evidence.of(status, values | more())
 
 
 def _stiffness(measure: Callable[[], np.ndarray]) -> np.ndarray:

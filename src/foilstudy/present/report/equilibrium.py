@@ -50,12 +50,15 @@ class Equilibrium:
         Those with a recorded residual.
     cells : int
         Realisations in the sweep, failed ones among them.
+    retried : int
+        Those whose crumple is of another attempt than the first, with safer settings.
     """
 
     tolerance: float
     unstable: int | None
     thicknesses: tuple[Settling, ...]
     cells: int
+    retried: int = 0
 
     @property
     def settled(self) -> int:
@@ -110,7 +113,8 @@ def assess_equilibrium(cube: xr.Dataset, config: Mapping) -> Equilibrium:
                 )
             )
     unstable = int((eigenvalues > 0).sum()) if np.isfinite(eigenvalues).any() else None
-    return Equilibrium(float(tolerance), unstable, tuple(rows), int(there.sum()))
+    retried = int((_variable(cube, "attempt") > 1).sum())
+    return Equilibrium(float(tolerance), unstable, tuple(rows), int(there.sum()), retried)
 
 
 def equilibrium_findings(equilibrium: Equilibrium) -> list[str]:
@@ -135,6 +139,12 @@ def equilibrium_findings(equilibrium: Equilibrium) -> list[str]:
         )
     elif equilibrium.unstable == 0:
         sentences.append("No tangent with the stress left in has a negative eigenvalue.")
+    if equilibrium.retried:
+        sentences.append(
+            f"{plural(equilibrium.retried, 'crumple')} failed as configured and stands here as a "
+            "further attempt with safer settings left it (method.retries): the mass, the damping "
+            "and the ramp are other ones than those of the rest, as its message says."
+        )
     return sentences
 
 

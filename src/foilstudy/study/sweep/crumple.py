@@ -13,9 +13,9 @@ from foilstudy.config import CrumpleTask
 from foilstudy.config.foils import foil_of
 from foilstudy.config.scene import recipe_of
 from foilstudy.model.patch import RING_ROWS, knot_points
-from foilstudy.pipeline.crumple import crumple
 from foilstudy.pipeline.crumpled import Crumpled, described
 from foilstudy.pipeline.evidence import sensors
+from foilstudy.pipeline.retry import attempted
 from foilstudy.solve.relaxation import History
 from foilstudy.study.sweep.origins import crumple_origin
 from foilstudy.study.sweep.outcome import Outcome, Values, outcome_of
@@ -39,13 +39,17 @@ def crumple_job(task: CrumpleTask, path: Path) -> None:
     } | described(foil, recipe)
 
     def work() -> Outcome:
-        crumpled = crumple(foil, recipe.mesh, recipe.imperfection, recipe.method)
-        return Outcome(crumpled.status, crumpled.message, values_of(crumpled))
+        attempts = attempted(foil, recipe, task.method.retries)
+        crumpled = attempts.crumpled
+        values = values_of(crumpled)
+        if task.method.retries:
+            values["attempt"] = float(attempts.number)
+        return Outcome(crumpled.status, attempts.message, values, described(foil, crumpled.recipe))
 
     with measured() as cost:
         outcome = outcome_of(work)
     values = outcome.values | {"seconds_crumple": cost.seconds}
-    attributes |= {"status": outcome.status, "message": outcome.message}
+    attributes |= {"status": outcome.status, "message": outcome.message} | outcome.attributes
     write_record(path, quantities(values), attributes, origin)
     print(f"{outcome.status}: {outcome.message} ({cost.seconds:.1f} s)")
 

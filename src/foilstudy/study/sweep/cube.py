@@ -36,6 +36,7 @@ from foilstudy.study.sweep.origins import (
 )
 from foilstudy.study.sweep.quantities import QUANTITIES, Declared
 from foilstudy.study.sweep.rounds import recorded_values, wanted_cells
+from foilstudy.study.sweep.switches import SWITCHES
 
 _CELL = ("thickness", "overlength", "seed")
 
@@ -63,7 +64,7 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
     """
     wanted = wanted_cells(study, lambda cell: recorded_values(study, results, cell))
     coordinates = _coordinates(study, wanted)
-    variables = {name: q for name, q in QUANTITIES.items() if q.in_cube and _there_is(q, study)}
+    variables = {name: q for name, q in QUANTITIES.items() if q.in_cube and _has(study, q)}
     sizes = {name: len(values) for name, (_, values, _) in coordinates.items()}
     cells = tuple(sizes[name] for name in _CELL)
     data = {
@@ -134,10 +135,9 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
     return cube
 
 
-def _there_is(quantity: Declared, study: StudyConfig) -> bool:
-    """Whether a study has a quantity of its foils at all."""
-    yields = not quantity.yielding or study.material.law != "elastic"
-    return yields and (not quantity.beyond_elastic or study.beyond_elastic)
+def _has(study: StudyConfig, quantity: Declared) -> bool:
+    """Whether there is such a quantity where a study is configured as it is."""
+    return not quantity.only or SWITCHES[quantity.only](study)
 
 
 def _coordinates(

@@ -16,11 +16,12 @@ Values = dict[str, np.ndarray | float]
 
 @dataclass(frozen=True)
 class Outcome:
-    """Status and message, as they stand in a record, and its values."""
+    """Status and message, as they stand in a record, its values, and what else it says."""
 
     status: str
     message: str
     values: Values = field(default_factory=dict)
+    attributes: dict[str, str] = field(default_factory=dict)
 
 
 def outcome_of(work: Callable[[], Outcome]) -> Outcome:

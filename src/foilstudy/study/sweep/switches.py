@@ -1,0 +1,14 @@
+"""What a configuration switches on, and with it the quantities that there are then only."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from foilstudy.config import StudyConfig
+
+SWITCHES: dict[str, Callable[[StudyConfig], bool]] = {
+    "yielding": lambda study: study.material.law != "elastic",
+    "beyond_elastic": lambda study: study.beyond_elastic,
+    "retrying": lambda study: study.method.retries > 0,
+}
+"""Whether a study has the quantities whose `Declared.only` is such a name."""
