@@ -64,7 +64,7 @@ class InstallationPath(RelaxationPath):
         for k, part in enumerate(self._parts()):
             ramp = Ramp(part * shortening, self._steps(k))
             start = done[-1].points if done else None
-            done.append(relax(problem, motion, ramp, self._rule(), start))
+            done.append(relax(problem, motion, ramp, self.stopping_rule(), start))
             if done[-1].status == "diverged":
                 break
         return done

@@ -51,7 +51,7 @@ class RelaxationPath:
         """See `Path`."""
         motion, settling = self.scheme.start(problem), self.settling
         with measured() as relaxing:
-            relaxed = relax(problem, motion, self._ramp(shortening), self._rule())
+            relaxed = relax(problem, motion, self._ramp(shortening), self.stopping_rule())
         if relaxed.status == "diverged":
             return ended(relaxed, {"relaxing": relaxing})
         left = settling.relaxation_steps_max - (relaxed.steps - self.ramp_steps)
@@ -70,14 +70,15 @@ class RelaxationPath:
 
     def _relaxed(self, problem: Problem, ramp: Ramp, points: np.ndarray | None) -> Arrival:
         with measured() as cost:
-            relaxed = relax(problem, self.scheme.start(problem), ramp, self._rule(), points)
+            relaxed = relax(problem, self.scheme.start(problem), ramp, self.stopping_rule(), points)
         state = problem.state if problem.has_memory else ()
         return replace(ended(relaxed, {"relaxing": cost}), state=state)
 
     def _ramp(self, shortening: float) -> Ramp:
         return Ramp(shortening, self.ramp_steps)
 
-    def _rule(self) -> StoppingRule:
+    def stopping_rule(self) -> StoppingRule:
+        """Of the relaxation after a ramp."""
         settling = self.settling
         return StoppingRule(
             settling.switch_residual, settling.relaxation_steps_max, self.check_interval

@@ -1,0 +1,80 @@
+"""Small motions of the ring one way and the other, and cycles until the foil is elastic."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from conftest import FEP, FOIL
+
+from foilstudy.base.errors import Refusal
+from foilstudy.model.foil import Imperfection
+from foilstudy.pipeline.crumple import crumple
+from foilstudy.pipeline.method import Mesh, Method
+from foilstudy.pipeline.one_sided import one_sided
+from foilstudy.pipeline.shakedown import shaken_down
+from foilstudy.solve.paths.minimisation import MinimisationPath
+from foilstudy.solve.paths.relaxation import RelaxationPath
+
+COARSE, QUICK = Mesh(20e-3), Method(RelaxationPath(ramp_steps=400))
+
+
+def crumpled(law, height):
+    foil = replace(FOIL, material=replace(FEP, law=law), reference_height=height)
+    return crumple(foil, COARSE, Imperfection(seed=3), QUICK)
+
+
+@pytest.fixture(scope="module")
+def virgin():
+    return crumpled("plastic", 0.140)
+
+
+@pytest.fixture(scope="module")
+def shaken(virgin):
+    return shaken_down(virgin, 2e-3)
+
+
+def test_a_virgin_state_is_one_sided(virgin, shaken):
+    """Pushed further it flows, pulled it is elastic; so is what has gone that far before."""
+    new, old = (one_sided(each, "axial", 2e-3) for each in (virgin, shaken.foil))
+    assert new.status == old.status == "converged", new.message
+    loading, unloading = new.dissipated
+    assert loading > 1e-3 * virgin.problem().value(virgin.points) and unloading == 0
+    assert max(old.dissipated) < 1e-3 * loading
+
+
+def test_work_per_cycle_falls_until_the_foil_is_elastic(virgin, shaken):
+    assert shaken.status == "converged", shaken.message
+    assert 2 <= shaken.cycles == len(shaken.reactions) - 1
+    assert (shaken.dissipated >= 0).all()
+    assert shaken.dissipated[-1] < 1e-2 * shaken.dissipated[0]
+    assert shaken.reactions[-1] == pytest.approx(shaken.reactions[-2], rel=1e-3)
+    assert np.abs(shaken.foil.points[:, -2:] - virgin.points[:, -2:]).max() < 1e-12
+
+
+@pytest.mark.parametrize("direction", ["axial", "radial"])
+def test_after_shakedown_secants_are_the_tangent(shaken, direction):
+    secants = one_sided(shaken.foil, direction)
+    assert secants.status == "converged", secants.message
+    assert secants.asymmetry < 0.01
+    assert max(secants.dissipated) < 1e-9 * shaken.dissipated[0]
+
+
+def test_elastic_foil_uses_up_nothing_and_is_elastic_once_its_force_returns():
+    cycled = shaken_down(crumpled("elastic", 0.140), 1e-3)
+    assert cycled.status == "converged" and not cycled.dissipated.any()
+    assert cycled.reactions[-1] == pytest.approx(cycled.reactions[-2], rel=1e-3)
+
+
+def test_too_few_cycles_are_told(virgin):
+    cycled = shaken_down(virgin, 2e-3, cycles_max=1)
+    assert cycled.status == "not_converged" and "cycle 1 still used up" in cycled.message
+
+
+def test_what_makes_no_sense_is_refused(virgin):
+    with pytest.raises(Refusal, match="amplitude of a cycle"):
+        shaken_down(virgin, 0.05)
+    with pytest.raises(Refusal, match="'up' is no direction"):
+        one_sided(virgin, "up")
+    other = replace(virgin, recipe=replace(virgin.recipe, method=Method(MinimisationPath())))
+    with pytest.raises(Refusal, match="not by minimisation"):
+        shaken_down(other, 1e-3)
