@@ -13,6 +13,10 @@ from foilstudy.bench.measured import READERS, read_response
 from foilstudy.bench.measured.conversion import UNITS, as_stiffness, unit_named
 from foilstudy.bench.measured.table import chosen
 from foilstudy.command import main
+from foilstudy.present.files import StudyFiles
+from foilstudy.present.measured import MeasuredFile
+from foilstudy.present.report import write_report
+from foilstudy.present.statistics.tables import write_tables
 
 F = np.array([1.0, 2.5, 10.0, 100.0])
 K, M = 2000.0, 0.3
@@ -347,15 +351,20 @@ def test_a_configuration_without_usable_realisation_is_refused():
 # --- the command ---------------------------------------------------------------------------------
 
 
-def test_compare_prints_and_draws(cube, tmp_path, capsys):
-    write_cube(cube.copy(), tmp_path / "cube.nc")
-    own = simulated(cube, CASE)
+def written(own, path, factor=1.0):
+    """The first realisation as a measured one."""
     rows = ["frequency (Hz),real (N/m),imag (N/m)"]
     rows += [
         f"{f!r},{v.real!r},{v.imag!r}"
-        for f, v in zip(own.frequencies.tolist(), own.curves[0].tolist())
+        for f, v in zip(own.frequencies.tolist(), (factor * own.curves[0]).tolist())
     ]
-    (tmp_path / "run.csv").write_text("\n".join(rows))
+    path.write_text("\n".join(rows))
+    return path
+
+
+def test_compare_prints_and_draws(cube, tmp_path, capsys):
+    write_cube(cube.copy(), tmp_path / "cube.nc")
+    written(simulated(cube, CASE), tmp_path / "run.csv")
     words = ["--thickness", "500", "--height", "170"]
     main(["compare", str(tmp_path / "run.csv"), str(tmp_path), *words])
     said = capsys.readouterr().out
@@ -366,3 +375,32 @@ def test_compare_prints_and_draws(cube, tmp_path, capsys):
         main(["compare", str(tmp_path / "run.csv"), str(tmp_path), "--thickness", "500"])
     with pytest.raises(SystemExit, match="there is no such file"):
         main(["compare", str(tmp_path / "ran.csv"), str(tmp_path)])
+
+
+def test_the_page_of_a_study_shows_what_was_measured_beside_it(cube, tmp_path):
+    write_cube(cube.copy(), tmp_path / "cube.nc")
+    own = simulated(cube, CASE)
+    measured = [
+        MeasuredFile(written(own, tmp_path / "run.csv"), CASE),
+        MeasuredFile(written(own, tmp_path / "hard.csv", 3.0), CASE),
+    ]
+    files = StudyFiles(tmp_path / "cube.nc", measured=tuple(measured))
+    write_tables(files.cube, tmp_path)
+    page = write_report(files, tmp_path / "report.html").read_text("utf-8")
+    section = page[page.index('<section id="measured">') :].split("</section>")[0]
+    assert section.count("data:image/svg+xml") == 2 and '<a href="#measured">' in page
+    soft, hard = section.split("<h3>")[1:]
+    assert "run.csv: 500 um, 170 mm (30.8 %), axial transfer stiffness" in soft
+    assert "to 1.000 with one each" in soft and "0 % of the values leave the band" in soft
+    assert "1 to 800 Hz: above, by up to" in hard
+
+
+def test_a_measurement_that_has_no_place_in_the_cube_stops_the_page(cube, tmp_path):
+    write_cube(cube.copy(), tmp_path / "cube.nc")
+    run = written(simulated(cube, CASE), tmp_path / "run.csv")
+    words = ["report", str(tmp_path), "--measured", str(run), "--thickness", "500"]
+    with pytest.raises(SystemExit, match="say which by --height"):
+        main(words)
+    with pytest.raises(SystemExit, match="--height is given 2 times for 1 measured files"):
+        main([*words, "--height", "170", "--height", "135"])
+    assert {path.name for path in tmp_path.iterdir()} == {"cube.nc", "run.csv"}

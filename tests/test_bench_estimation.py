@@ -209,6 +209,23 @@ def test_blocks_with_overlap_equal_those_cut_by_hand():
     assert np.allclose(ours, theirs[1:201], rtol=1e-10)
 
 
+@pytest.mark.parametrize("name", list(ESTIMATORS))
+def test_estimators_and_coherence_equal_those_from_the_spectra_of_scipy(name):
+    """The definitions of pyFRF: H1 = S_xy / S_xx, H2 = S_yy / S_yx, Hv their geometric mean."""
+    from scipy.signal import coherence, csd, welch
+
+    x, n = noise(60, 1), noise(60, 2)
+    y = np.convolve(x, [0.5, 1.0, -0.3])[: x.size] + 0.4 * n
+    ours = averaged(recorded(x, y), Blocks(2.0, 0.5), 100)
+    how = {"window": "hann", "nperseg": 512, "fs": RATE}
+    (_, xx), (_, yy), (_, xy) = welch(x, **how), welch(y, **how), csd(x, y, **how)
+    h1, h2 = xy / xx, yy / xy.conj()
+    theirs = {"h1": h1, "h2": h2, "hv": np.sqrt(np.abs(h1 * h2)) * xy / np.abs(xy)}[name]
+    found = ESTIMATORS[name](*ours.of(0, 1))
+    assert np.allclose(found, theirs[1:201], rtol=1e-10)
+    assert np.allclose(ours.coherence(0, 1), coherence(x, y, **how)[1][1:201], rtol=1e-10)
+
+
 def test_independent_averages_of_overlapping_blocks():
     """Scatter of many densities of white noise is that of as many independent blocks."""
     values = np.random.default_rng(8).standard_normal((60, 20 * 64))

@@ -46,6 +46,7 @@ NOT_IN_TASKS = {
     "estimator": "bench.estimation.estimators",
     "excitation": "bench.signals",
     "format of measured responses": "bench.measured",
+    "format of time signals": "bench.signal_files",
     "specimen": "bench.rig.specimens",
 }
 """The same of what no configuration chooses from."""

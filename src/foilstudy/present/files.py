@@ -12,6 +12,7 @@ import numpy as np
 from foilstudy.base.errors import Refusal
 from foilstudy.base.record import read_attributes
 from foilstudy.config.model import overlength_id, thickness_id
+from foilstudy.present.measured import MeasuredFile
 from foilstudy.present.statistics.cells import realised
 
 CELL = ("thickness", "overlength", "seed")
@@ -31,11 +32,14 @@ class StudyFiles:
         ``crumple.nc`` of the realisations. The response of a realisation lies beside its crumple.
     left_out : frozenset of str
         Ids of figures that the page does not show though there may be a picture of that name.
+    measured : tuple of MeasuredFile
+        Measurements that the page puts beside the simulated realisations.
     """
 
     cube_path: Path
     crumple_paths: tuple[Path, ...] = ()
     left_out: frozenset[str] = frozenset()
+    measured: tuple[MeasuredFile, ...] = ()
 
     @classmethod
     def found(cls, cube_path: Path) -> StudyFiles:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
 from pathlib import Path
@@ -10,6 +11,7 @@ from foilstudy.base.cube import CONTENT, verified_attributes
 from foilstudy.base.manifest import noted_origin, outdated
 from foilstudy.present.figures import FIGURES, FigureSpec, draw_figures
 from foilstudy.present.files import StudyFiles
+from foilstudy.present.measured import MeasuredFile
 from foilstudy.present.report import write_report
 from foilstudy.present.shown import note_origin
 from foilstudy.present.statistics.tables import write_tables
@@ -36,7 +38,7 @@ class Redrawn:
     left_out: list[str]
 
 
-def redraw(results: str | Path) -> Redrawn:
+def redraw(results: str | Path, measured: Sequence[MeasuredFile] = ()) -> Redrawn:
     """Write the tables, figures and page of a study anew.
 
     Parameters
@@ -45,21 +47,26 @@ def redraw(results: str | Path) -> Redrawn:
         Folder of a study, ``results/NAME``, or its ``cube.nc``. Figures of shapes, histories and
         modes need the records of all its realisations, ``realisations/*/*/*/crumple.nc`` and
         ``response.nc`` beside them, those that the cube was gathered from.
+    measured : sequence of MeasuredFile, optional
+        What was measured of its configurations, to stand beside them on the page.
 
     Raises
     ------
     Refusal
-        If there is no cube, if it is not one of this package, or if it was altered.
+        If there is no cube, if it is not one of this package, or if it was altered; or if a
+        measurement cannot be read or has no place in it.
     """
     results = Path(results)
     files = StudyFiles.found(results / "cube.nc" if results.is_dir() else results)
     if CONTENT in files.cube.attrs:  # from release 0.4 on
         verified_attributes(files.cube_path)
+    for each in measured:
+        each.beside(files.cube)  # refused before anything is written
     drawn = [name for name, figure in FIGURES.items() if _can_be_drawn(figure, files)]
     missing = [name for name in FIGURES if name not in drawn]
     kept = {name: paths for name in missing if (paths := _of_this_cube(files, name))}
     left_out = [name for name in missing if name not in kept]
-    files = replace(files, left_out=frozenset(left_out))
+    files = replace(files, left_out=frozenset(left_out), measured=tuple(measured))
     written = write_tables(files.cube, files.folder)
     written += draw_figures(drawn, files, files.figures)
     written.append(write_report(files, files.page))

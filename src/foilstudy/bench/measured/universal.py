@@ -11,7 +11,7 @@ from foilstudy.bench.estimation.estimate import Estimate
 from foilstudy.bench.measured.conversion import QUANTITIES, Quantity, as_stiffness, unit_named
 from foilstudy.bench.measured.table import chosen
 
-__all__ = ["read"]
+__all__ = ["datasets", "read"]
 
 _FREQUENCY_RESPONSE = 4
 _DISPLACEMENT, _ACCELERATION, _FORCE = 8, 12, 13
@@ -25,17 +25,7 @@ _KINDS = {
 
 def read(path: Path, function: str | None = None) -> Estimate:
     """See `Reader`; a function is named by its first ID line."""
-    import pyuff
-
-    try:
-        file = pyuff.UFF(str(path))
-        kinds = np.atleast_1d(file.get_set_types())
-        sets = [file.read_sets(int(k)) for k in np.flatnonzero(kinds == 58)]
-        units = [file.read_sets(int(k)) for k in np.flatnonzero(kinds == 164)]
-    except Exception as error:  # pyuff raises plain ones
-        raise Refusal(
-            f"{path}: cannot be read as a Universal File ({error}); export it anew."
-        ) from None
+    sets, units = datasets(path)
     sets = [each for each in sets if each["func_type"] == _FREQUENCY_RESPONSE]
     names = [each["id1"].strip() for each in sets]
     wanted = chosen(path, list(dict.fromkeys(names)), function)
@@ -53,6 +43,29 @@ def read(path: Path, function: str | None = None) -> Estimate:
     quantity = _KINDS[types]
     size = _size(path, quantity, found, units)
     return as_stiffness(path, quantity, found["x"], size * np.asarray(found["data"]))
+
+
+def datasets(path: Path) -> tuple[list[dict], list[dict]]:
+    """Functions (dataset 58) and units (dataset 164) of a Universal File.
+
+    Raises
+    ------
+    Refusal
+        If it cannot be read.
+    """
+    import pyuff
+
+    try:
+        file = pyuff.UFF(str(path))
+        kinds = np.atleast_1d(file.get_set_types())
+        functions, units = (
+            [file.read_sets(int(k)) for k in np.flatnonzero(kinds == kind)] for kind in (58, 164)
+        )
+    except Exception as error:  # pyuff raises plain ones
+        raise Refusal(
+            f"{path}: cannot be read as a Universal File ({error}); export it anew."
+        ) from None
+    return functions, units
 
 
 def _size(path: Path, quantity: Quantity, found: dict, units: list[dict]) -> float:

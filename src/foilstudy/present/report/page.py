@@ -21,6 +21,7 @@ from foilstudy.present.configuration import configuration, isolation_options, st
 from foilstudy.present.figures import FIGURES
 from foilstudy.present.files import StudyFiles
 from foilstudy.present.report import (
+    beside,
     distrust,
     equilibrium,
     exponents,
@@ -189,6 +190,10 @@ def _content(files: StudyFiles, folder: Path) -> dict:
         "verdicts": found_verdicts(cube),
         "health_words": findings.health_sentence(health),
         "figures": _figures(files, _seen(said)),
+        "measurements": [
+            (each, _data_address(each.picture, "svg+xml"))
+            for each in beside.measurements(cube, files.measured)
+        ],
         "viewer": shapes,
         "has_records": bool(files.crumple_paths),
         "gradient": _gradient(viewer.colour_table()),

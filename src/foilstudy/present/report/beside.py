@@ -1,0 +1,58 @@
+"""Measurements on the page of a study, beside the realisations of their configurations."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import xarray as xr
+
+from foilstudy.plot import style
+from foilstudy.present.measured import MeasuredFile, draw, findings, title_of
+
+__all__ = ["Beside", "measurements"]
+
+
+@dataclass(frozen=True)
+class Beside:
+    """One measurement as it stands in the page.
+
+    Attributes
+    ----------
+    name : str
+        Of its file.
+    title : str
+        Configuration and stiffness.
+    rows : tuple of (str, str)
+        What it shows: a word and what is said of it, the word empty where it goes on.
+    picture : bytes
+        SVG.
+    """
+
+    name: str
+    title: str
+    rows: tuple[tuple[str, str], ...]
+    picture: bytes
+
+    @property
+    def alt(self) -> str:
+        """For those who do not see the picture."""
+        return f"{self.title}, measured and simulated. {'; '.join(t for _, t in self.rows)}."
+
+
+def measurements(cube: xr.Dataset, files: Sequence[MeasuredFile]) -> Iterator[Beside]:
+    """Compare and draw what was measured.
+
+    Raises
+    ------
+    Refusal
+        As `MeasuredFile.beside`.
+    """
+    for file in files:
+        comparison = file.beside(cube)
+        title, picture = title_of(comparison), io.BytesIO()
+        style.styled(draw(comparison, title).savefig)(
+            picture, format="svg", metadata={"Date": None}
+        )
+        yield Beside(file.path.name, title, tuple(findings(comparison)), picture.getvalue())
