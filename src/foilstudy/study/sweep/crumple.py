@@ -44,9 +44,7 @@ def crumple_job(task: CrumpleTask, path: Path) -> None:
         values = values_of(crumpled)
         if task.method.retries:
             values["attempt"] = float(attempts.number)
-        return Outcome(
-            crumpled.status, attempts.message, values, described(foil, crumpled.recipe)
-        )
+        return Outcome(crumpled.status, attempts.message, values, described(foil, crumpled.recipe))
 
     with measured() as cost:
         outcome = outcome_of(work)
