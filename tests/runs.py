@@ -14,8 +14,6 @@ import yaml
 ROOT = Path(__file__).parents[1]
 _NAMES = ("tradeoff.yaml", "limits.yaml", "real.yaml")
 _OF_SIDE_STUDIES = {ROOT / "config" / name for name in _NAMES}
-    ROOT / "config" / name for name in ("tradeoff.yaml", "limits.yaml", "real.yaml")
-}
 STUDY_FILES = sorted(set((ROOT / "config").glob("*.yaml")) - _OF_SIDE_STUDIES)
 """Configurations of studies; the others hold settings of side studies."""
 SNAKEMAKE = str(Path(sys.executable).with_name("snakemake"))

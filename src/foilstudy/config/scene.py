@@ -25,6 +25,7 @@ def recipe_of(task: CrumpleTask) -> Recipe:
         amplitude=section.amplitude_um * 1e-6,
         correlation_length=(section.correlation_length_mm or 0.0) * 1e-3,
         seed=task.seed,
+        removed=section.removal == "after_buckling",
     )
     return Recipe(mesh_of(task.mesh), imperfection, method_of(task))
 

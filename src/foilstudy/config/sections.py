@@ -8,7 +8,7 @@ path, because the reader of the message looks at a YAML file, not at this code.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import (
     BaseModel,
@@ -299,6 +299,13 @@ class Imperfection(Section):
         None,
         gt=0,
         le=10_000,
+    )
+    removal: Literal["never", "after_buckling"] = unit_field(
+        "choice",
+        "Whether the imperfection stays in the stress-free shape (`never`), or is taken out of it "
+        "at twice the shortening at which a perfect cylinder buckles (`after_buckling`), as if it "
+        "had only chosen the first buckles.",
+        "never",
     )
 
     @model_validator(mode="before")

@@ -80,12 +80,15 @@ class Imperfection:
         Standard deviation of the smoothing kernel of ``smoothed``, m; zero for the others.
     seed : int
         Of the realisation.
+    removed : bool
+        Whether it is taken out of the stress-free shape once the foil has buckled.
     """
 
     kind: str = "gaussian"
     amplitude: float = 10e-6
     correlation_length: float = 0.0
     seed: int = 0
+    removed: bool = False
 
     def __post_init__(self):
         require_number("amplitude of an imperfection", self.amplitude, "m", least=0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import sqrt
 
 from foilstudy.base.errors import Refusal
 from foilstudy.base.outcome import USABLE
@@ -11,6 +12,12 @@ from foilstudy.model.imperfections.cylinder import imperfect_cylinder
 from foilstudy.pipeline.crumpled import Crumpled, Recipe
 from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.solve.paths import Arrival
+from foilstudy.solve.paths.relaxation import RelaxationPath
+
+_BUCKLED = 2.0
+"""Shortening at which an imperfection is removed, over the classical one of buckling."""
+_STEPS_MIN = 200
+"""Of the ramp up to there."""
 
 
 def crumple(
@@ -43,9 +50,15 @@ def crumple(
     """
     start = uncrumpled(foil, mesh, imperfection, method)
     path, coarsenings = start.method.path, start.recipe.mesh.ramp_coarsenings
+    way: tuple = (foil.shortening,)
+    if start.recipe.imperfection.removed:
+        start = without_imperfection(start)
+        if start.status not in USABLE:
+            return start
+        way = start.points[2, -1].mean() - foil.gap_height, start.points
     if not coarsenings:
-        return _arrived(start, path.follow(start.problem(), foil.shortening))
-    crumpled = _arrived(start, path.push(start.problem(), foil.shortening))
+        return _arrived(start, path.follow(start.problem(), *way))
+    crumpled = _arrived(start, path.push(start.problem(), *way))
     for finer in range(1, coarsenings + 1):
         if crumpled.status not in USABLE:
             break
@@ -53,6 +66,31 @@ def crumple(
         relax = path.settle if finer == coarsenings else path.relax
         crumpled = _arrived(crumpled, relax(crumpled.problem(), crumpled.points).after(before))
     return crumpled
+
+
+def without_imperfection(start: Crumpled) -> Crumpled:
+    """A cylinder pushed until it has buckled, and then free of stress where it is perfect.
+
+    Raises
+    ------
+    Refusal
+        If the path does not move, or the material has a memory, which belongs to its first shape.
+    """
+    foil, path = start.foil, start.method.path
+    if not isinstance(path, RelaxationPath) or start.problem().has_memory:
+        raise Refusal(
+            "imperfection.removal: after_buckling needs a foil that is elastic and relaxed; set "
+            "method.path: relaxation and material.law: elastic, or leave it out."
+        )
+    strain = foil.thickness / (foil.diameter / 2) / sqrt(3 * (1 - foil.material.poisson_ratio**2))
+    first = min(_BUCKLED * strain * foil.reference_height, foil.shortening / 2)
+    steps = max(_STEPS_MIN, round(path.ramp_steps * first / foil.shortening))
+    ring = RelaxationPath(steps, path.scheme, path.settling, path.check_interval)
+    buckled = _arrived(start, ring.push(start.problem(), first))
+    perfect = imperfect_cylinder(
+        start.patch, foil, replace(start.recipe.imperfection, amplitude=0.0)
+    )
+    return replace(buckled, reference=perfect)
 
 
 def _arrived(crumpled: Crumpled, arrival: Arrival) -> Crumpled:

@@ -190,8 +190,7 @@ class Crumpled(Shape):
 
     def verdicts(self) -> tuple[Verdict, ...]:
         """What the numbers of the crumple say of it, see `foilstudy.measure.verdicts`."""
-        count = self.arrival.negative_eigenvalues if self.arrival else None
-        return verdicts(evidence_of(self, self.status, count))
+        return verdicts(evidence_of(self, self.arrival))
 
     def vibration(self, options: DynamicsOptions | None = None) -> Vibration:
         """Dynamic stiffness, eigenfrequencies and mode shapes of the stress-free shape.

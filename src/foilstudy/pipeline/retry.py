@@ -29,7 +29,7 @@ SLOWNESS = 10.0
 """Steps of the ramp for each unit of R/t, at least: those of standard accuracy."""
 SLOWER = 4
 """Factor of the steps of the ramp from one attempt to the next; twice as many of the relaxation."""
-_CURABLE = ("not_converged", "diverged", "saddle", "folded_globally")
+_CURABLE = ("not_converged", "diverged", "saddle", "folded_globally", "rate_dependent")
 """Verdicts that come of how a foil is pushed."""
 _OF_HASTE = ("hourglassed", "locked")
 """Those that come of too fast a ramp, unless the mesh is too wide or its element made for it."""
@@ -94,8 +94,7 @@ def _attempt(foil: Foil, recipe: Recipe) -> tuple[Crumpled | Exception, str]:
         crumpled = crumple(foil, recipe.mesh, recipe.imperfection, recipe.method)
     except (SolveError, ArithmeticError) as error:
         return error, f"{type(error).__name__}: {error}"
-    count = crumpled.arrival.negative_eigenvalues
-    found = [each.name for each in verdicts(seen_in(crumpled, crumpled.status, count))]
+    found = [each.name for each in verdicts(seen_in(crumpled, crumpled.arrival))]
     curable = [name for name in found if name in _curable(foil, recipe.mesh)]
     return crumpled, f"{' and '.join(curable)} ({crumpled.message})" if curable else ""
 

@@ -8,7 +8,7 @@ from typing import Any, Self
 
 import numpy as np
 
-__all__ = ["Evidence"]
+__all__ = ["Evidence", "Way", "work_over_energy"]
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class Evidence:
         Of the tangent at the end, rings held.
     membrane_energy, bending_energy : float
         J.
-    broad_wave_share, calmer_half, alternation : float
+    broad_wave_share, calmer_half, alternation, hidden_energy : float
         See `foilstudy.measure.verdicts.shape`.
     self_crossing_share, beyond_yield_share : float
         Of the surface.
@@ -34,6 +34,8 @@ class Evidence:
         Smallest eigenvalue of the interface stiffness over its largest, in comparable units.
     budget_spent : bool
         Whether the search ended for want of steps or factorisations.
+    work_over_energy : float
+        See `work_over_energy`.
     """
 
     status: str
@@ -43,12 +45,14 @@ class Evidence:
     broad_wave_share: float = np.nan
     calmer_half: float = np.nan
     alternation: float = np.nan
+    hidden_energy: float = np.nan
     self_crossing_share: float = np.nan
     beyond_yield_share: float = np.nan
     static_stiffness: tuple[float, ...] = ()
     prestressed_stiffness: tuple[float, ...] = ()
     least_stiffness: float = np.nan
     budget_spent: bool = False
+    work_over_energy: float = np.nan
 
     @classmethod
     def of(cls, status: str, values: Mapping[str, Any]) -> Self:
@@ -60,8 +64,75 @@ class Evidence:
         }
         if "interface_stiffness" in values:
             found["least_stiffness"] = least_stiffness(np.asarray(values["interface_stiffness"]))
+        if "history_height" in values:
+            found["work_over_energy"] = _work_of_record(values)
         # what a search that has not converged lacked is steps, or it would have ended otherwise
         return cls(status, budget_spent=status == "not_converged", **found)
+
+
+@dataclass(frozen=True, eq=False)
+class Way:
+    """How the top ring came down, an entry for each time it was looked at.
+
+    Attributes
+    ----------
+    step : ndarray
+        Of the motion.
+    height, force : ndarray
+        Of the ring, m, and the force that pushes it up, N.
+    kinetic : ndarray
+        Kinetic energy of the foil, J; zero all along where nothing moves by inertia.
+    """
+
+    step: np.ndarray
+    height: np.ndarray
+    force: np.ndarray
+    kinetic: np.ndarray
+
+
+_LEAST_ENTRIES = 6
+"""In which a work can be seen."""
+_LEAST_STEPS = 100
+"""In which a foil can follow the ring: in fewer it has not, whatever work is seen."""
+
+
+def work_over_energy(way: Way, energy: float) -> float:
+    """Work of the top ring over the energy at rest: one where nothing is lost on the way.
+
+    Snaps lose some of it at any rate; a ramp in which the foil cannot follow the ring, nearly all.
+
+    Parameters
+    ----------
+    way : Way
+    energy : float
+        Stored at the end, and used up by plastic flow, J.
+
+    Returns
+    -------
+    float
+        NaN where nothing is stored, or the way was looked at too seldom to tell; infinite where a
+        motion took so few steps that no foil can follow.
+    """
+    moves = np.flatnonzero(np.diff(way.height) != 0)
+    if not (energy > 0 and moves.size):
+        return np.nan
+    if np.any(way.kinetic > 0) and moves.size < _LEAST_ENTRIES:
+        steps = way.step[moves[-1] + 1] - way.step[moves[0]]
+        return np.inf if steps <= _LEAST_STEPS else np.nan
+    return float(np.trapezoid(way.force, -way.height) / energy)
+
+
+def _work_of_record(values: Mapping[str, Any]) -> float:
+    """The same of the history in a record, whose last entry is the equilibrium."""
+    stored = sum(
+        float(value[-1])
+        for name, value in values.items()
+        if name.startswith("history_") and name.endswith("_energy") and len(value)
+    )
+    used_up = float(values.get("dissipated_work", 0.0))
+    names = ("step", "height", "reaction_force", "kinetic_energy")
+    way = Way(*(np.asarray(values[f"history_{name}"]) for name in names))
+    return work_over_energy(way, stored + used_up)
 
 
 def least_stiffness(interface: np.ndarray) -> float:

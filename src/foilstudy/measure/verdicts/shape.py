@@ -105,5 +105,29 @@ def alternation(displacement: np.ndarray) -> float:
     return float(-max(around, along))
 
 
+def hidden_energy(seen: float, whole: float, size: float, thickness: float) -> float:
+    """How much energy a shape has that its elements do not see.
+
+    Fully integrated elements see every strain within an element, those of hourglasses, too; of a
+    fold they see a membrane strain that goes with the square of the element size, the bending with
+    that of the thickness. So the ratio of the two energies over that of the squares tells an
+    hourglass from a sharp fold, on meshes that resolve it and on those that do not.
+
+    Parameters
+    ----------
+    seen, whole : float
+        Membrane and bending energy of the shape, by its own elements and by fully integrated ones,
+        J.
+    size, thickness : float
+        m.
+
+    Returns
+    -------
+    float
+        NaN where nothing is strained.
+    """
+    return whole / seen * (thickness / size) ** 2 if seen > 0 else np.nan
+
+
 def _correlation(first: np.ndarray, second: np.ndarray) -> float:
     return np.sum(first * second) / np.sqrt(np.sum(first**2) * np.sum(second**2))

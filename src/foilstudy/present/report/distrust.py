@@ -100,8 +100,9 @@ def _flawed(trust: Trust):
     cells = (trust.flawed & ~trust.unresolved).any("direction")
     if cells.any():
         yield (
-            f"Elements lock or hourglass in most realisations at {named(cells)}: the verdicts, "
-            "under health, say which, and what to do instead."
+            "Elements lock or hourglass, or the ramp was too fast for the foil, in most "
+            f"realisations at {named(cells)}: the verdicts, under health, say which, and what to "
+            "do instead."
         )
 
 

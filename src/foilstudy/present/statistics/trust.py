@@ -47,7 +47,7 @@ class Trust:
     unresolved, folded, unstated, inaccurate, flawed : xarray.DataArray of bool, as `known`
         Why a known one is not trusted: its elements are wider than folds; its folds turn more than
         `FOLD_ANGLE_MAX_DEG` from one element to the next; a mesh error is not stated; that is
-        larger than `ERROR_MAX`; most of its realisations have hourglassed or locked
+        larger than `ERROR_MAX`; most of its realisations have a verdict that casts doubt
         (`foilstudy.measure.verdicts`).
     """
 
@@ -107,7 +107,7 @@ def _slenderness(cube):
 
 
 def _doubted_share(cube):
-    """Of the realisations that count: those with a verdict that casts doubt on their mesh."""
+    """Of the realisations that count: those with a verdict that casts doubt."""
     if "verdict" not in cube:  # of a release before 0.5
         return cube["thickness"] * cube["overlength"] * 0.0
     return found_any(cube, DOUBTS).where(sound(cube)).mean("seed")

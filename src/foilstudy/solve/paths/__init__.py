@@ -86,11 +86,13 @@ class Path(Protocol):
     the one that a study takes; it leaves out what it has no use for.
     """
 
-    def follow(self, problem: Problem, shortening: float) -> Arrival:
-        """From the stress-free shape to rings that are nearer by `shortening`, m."""
+    def follow(
+        self, problem: Problem, shortening: float, start: np.ndarray | None = None
+    ) -> Arrival:
+        """From the stress-free shape, or from `start`, to rings nearer by `shortening`, m."""
         ...
 
-    def push(self, problem: Problem, shortening: float) -> Arrival:
+    def push(self, problem: Problem, shortening: float, start: np.ndarray | None = None) -> Arrival:
         """Like `follow`, but only near an equilibrium: ``converged`` says no more than that."""
         ...
 

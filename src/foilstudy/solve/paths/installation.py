@@ -32,11 +32,13 @@ class InstallationPath(RelaxationPath):
     kind = "installation"
     stages: tuple[float, ...] = ()
 
-    def follow(self, problem: Problem, shortening: float) -> Arrival:
+    def follow(
+        self, problem: Problem, shortening: float, start: np.ndarray | None = None
+    ) -> Arrival:
         """See `Path`."""
         motion = self.scheme.start(problem)
         with measured() as relaxing:
-            done = self._staged(problem, motion, shortening)
+            done = self._staged(problem, motion, shortening, start)
         last = _joined(done)
         if last.status == "diverged":
             return ended(last, {"relaxing": relaxing})
@@ -48,23 +50,23 @@ class InstallationPath(RelaxationPath):
             )
         return arrived(problem, settled, {"relaxing": relaxing, "settling": cost}, last)
 
-    def push(self, problem: Problem, shortening: float) -> Arrival:
+    def push(self, problem: Problem, shortening: float, start: np.ndarray | None = None) -> Arrival:
         """See `Path`."""
         with measured() as cost:
-            done = self._staged(problem, self.scheme.start(problem), shortening)
+            done = self._staged(problem, self.scheme.start(problem), shortening, start)
         costs: dict[str, Cost] = {"relaxing": cost}
         state = problem.state if problem.has_memory else ()
         return replace(ended(_joined(done), costs), state=state)
 
     def _staged(
-        self, problem: Problem, motion: Motion, shortening: float
+        self, problem: Problem, motion: Motion, shortening: float, start: np.ndarray | None
     ) -> list[RelaxationResult]:
         """One result for each stop and the gap; the last one diverged if any did."""
         done: list[RelaxationResult] = []
         for k, part in enumerate(self._parts()):
             ramp = Ramp(part * shortening, self._steps(k))
-            start = done[-1].points if done else None
             done.append(relax(problem, motion, ramp, self.stopping_rule(), start))
+            start = done[-1].points
             if done[-1].status == "diverged":
                 break
         return done

@@ -47,11 +47,13 @@ class RelaxationPath:
         """See `Path`."""
         return cls(ramp_steps, scheme, settling, check_interval)
 
-    def follow(self, problem: Problem, shortening: float) -> Arrival:
+    def follow(
+        self, problem: Problem, shortening: float, start: np.ndarray | None = None
+    ) -> Arrival:
         """See `Path`."""
         motion, settling = self.scheme.start(problem), self.settling
         with measured() as relaxing:
-            relaxed = relax(problem, motion, self._ramp(shortening), self.stopping_rule())
+            relaxed = relax(problem, motion, self._ramp(shortening), self.stopping_rule(), start)
         if relaxed.status == "diverged":
             return ended(relaxed, {"relaxing": relaxing})
         left = settling.relaxation_steps_max - (relaxed.steps - self.ramp_steps)
@@ -60,9 +62,9 @@ class RelaxationPath:
             settled = settle(problem, motion, relaxed.points, settling)
         return arrived(problem, settled, {"relaxing": relaxing, "settling": cost}, relaxed)
 
-    def push(self, problem: Problem, shortening: float) -> Arrival:
+    def push(self, problem: Problem, shortening: float, start: np.ndarray | None = None) -> Arrival:
         """See `Path`."""
-        return self._relaxed(problem, self._ramp(shortening), None)
+        return self._relaxed(problem, self._ramp(shortening), start)
 
     def relax(self, problem: Problem, points: np.ndarray) -> Arrival:
         """See `Path`."""

@@ -46,14 +46,22 @@ class StaticPath:
         """`follow` for a problem without memory."""
         raise NotImplementedError
 
-    def follow(self, problem: Problem, shortening: float) -> Arrival:
+    def follow(
+        self, problem: Problem, shortening: float, start: np.ndarray | None = None
+    ) -> Arrival:
         """See `Path`.
 
         Raises
         ------
         Refusal
-            If the problem has a memory, of which a path of equilibria knows nothing.
+            If the problem has a memory, of which a path of equilibria knows nothing, or if it does
+            not begin at the stress-free shape.
         """
+        if start is not None:
+            raise Refusal(
+                f"method.path: {self.kind} begins at the stress-free shape, and not at one that "
+                "has buckled; use relaxation."
+            )
         if problem.has_memory:
             raise Refusal(
                 f"method.path: {self.kind} follows elastic equilibria and would lose the memory of "
@@ -61,9 +69,9 @@ class StaticPath:
             )
         return self.pushed(problem, shortening)
 
-    def push(self, problem: Problem, shortening: float) -> Arrival:
+    def push(self, problem: Problem, shortening: float, start: np.ndarray | None = None) -> Arrival:
         """See `Path`: nothing is near an equilibrium that is none, so this is `follow`."""
-        return self.follow(problem, shortening)
+        return self.follow(problem, shortening, start)
 
     def relax(self, problem: Problem, points: np.ndarray) -> Arrival:
         """See `Path`: there is no motion, so this is `settle`."""

@@ -25,6 +25,7 @@ _MARKS = {
     "folded_globally": "F",
     "hourglassed": "H",
     "locked": "L",
+    "rate_dependent": "R",
     "spurious": "?",
 }
 """Of what speaks against a method, in the map."""

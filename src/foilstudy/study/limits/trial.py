@@ -61,7 +61,7 @@ def _judged(crumpled: Crumpled) -> dict:
     if not np.isfinite(crumpled.points).all() or arrival.status in ("diverged", "failed"):
         nothing = _nothing(arrival.status, arrival.message, arrival.budget_spent)
         return nothing | _costs(crumpled)
-    evidence = evidence_of(crumpled, arrival.status, arrival.negative_eigenvalues)
+    evidence = evidence_of(crumpled, arrival)
     return {
         **asdict(evidence),
         "message": arrival.message,

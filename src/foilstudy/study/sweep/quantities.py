@@ -159,6 +159,10 @@ QUANTITIES: dict[str, Declared] = {
         "1", "radial displacement of the calmer half of the height over that of the other, RMS"
     ),
     "alternation": Declared("1", "opposition of the twists of neighbouring elements"),
+    "hidden_energy": Declared(
+        "1",
+        "energy by fully integrated elements over that by its own, times (thickness / size)^2",
+    ),
     "verdict": Declared("1", "what the numbers of the realisation say of it, a bit each"),
     "mode_count": Declared(
         "1", "eigenfrequencies, rings clamped, below a frequency", ("frequency",)
