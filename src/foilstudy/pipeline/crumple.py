@@ -44,7 +44,7 @@ def crumple(
     start = uncrumpled(foil, mesh, imperfection, method)
     path, coarsenings = start.method.path, start.recipe.mesh.ramp_coarsenings
     if not coarsenings:
-        return _arrived(start, path.follow(start.problem(), foil.shortening))
+        return _at_rest(_arrived(start, path.follow(start.problem(), foil.shortening)))
     crumpled = _arrived(start, path.push(start.problem(), foil.shortening))
     for finer in range(1, coarsenings + 1):
         if crumpled.status not in USABLE:
@@ -52,7 +52,12 @@ def crumple(
         before, crumpled = crumpled.arrival, crumpled.refined()
         relax = path.settle if finer == coarsenings else path.relax
         crumpled = _arrived(crumpled, relax(crumpled.problem(), crumpled.points).after(before))
-    return crumpled
+    return _at_rest(crumpled)
+
+
+def _at_rest(crumpled: Crumpled) -> Crumpled:
+    """After the time that it stands before it is measured."""
+    return crumpled.waited(crumpled.method.waiting) if crumpled.status in USABLE else crumpled
 
 
 def _arrived(crumpled: Crumpled, arrival: Arrival) -> Crumpled:
