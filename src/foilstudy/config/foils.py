@@ -19,6 +19,7 @@ def material_of(section: MaterialSection) -> Material:
         name=section.name,
         law=section.law,
         hardening=None if section.hardening_mpa is None else section.hardening_mpa * 1e6,
+        relaxation_per_decade=section.relaxation_per_decade,
     )
 
 

@@ -227,6 +227,12 @@ class StudyConfig(Section):
                 "method.path is installation, but installation.stops_percent is not given; give "
                 "stops such as [125], or remove method.path."
             )
+        waits, relaxes = self.installation.waiting_hours, self.material.relaxation_per_decade
+        if bool(waits) != bool(relaxes):
+            given, missing = ("installation.waiting_hours", "material.relaxation_per_decade")
+            if relaxes:
+                given, missing = missing, given
+            yield f"{given} is given, but without {missing} nothing relaxes; give both, or neither."
         gap = self.sheet.gap_height_mm
         for i, percent in enumerate(stops):
             distances = [
@@ -327,7 +333,7 @@ class StudyConfig(Section):
 
         Then their true stiffness is measured; of elastic ones the pre-stressed one is that.
         """
-        return self.material.law != "elastic"
+        return self.material.law != "elastic" or self.installation.waiting_hours > 0
 
     def with_fewest(self) -> StudyConfig:
         """The same study with a fixed number of realisations, those of the first round."""

@@ -53,7 +53,8 @@ def method_of(task: CrumpleTask) -> Method:
     if task.installation.stops_percent:
         stages = tuple(each / 100 for each in task.installation.stops_percent)
         path = replace(path, stages=stages)
-    return Method(path, STRESS_REMOVALS[method.stress_removal]())
+    removal = STRESS_REMOVALS[method.stress_removal]()
+    return Method(path, removal, 3600 * task.installation.waiting_hours)
 
 
 def dynamics_of(section: Dynamics) -> DynamicsOptions:

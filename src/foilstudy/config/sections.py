@@ -149,6 +149,14 @@ class Material(Section):
         ge=0,
         le=2e6,
     )
+    relaxation_per_decade: float = unit_field(
+        "1",
+        "Share of its stress that the held foil loses in each tenfold of the time since it was "
+        "fitted, for `installation.waiting_hours`; films lose about 0.1.",
+        0.0,
+        ge=0,
+        le=1,
+    )
 
     @model_validator(mode="after")
     def _hardening_only_where_it_counts(self) -> Material:
@@ -340,6 +348,14 @@ class Installation(Section):
         (),
         max_length=50,
         strict=False,
+    )
+    waiting_hours: float = unit_field(
+        "h",
+        "Time that the foil stands in the gap before it is measured, in which its stress relaxes "
+        "by `material.relaxation_per_decade`.",
+        0.0,
+        ge=0,
+        le=1e7,
     )
 
 

@@ -6,6 +6,7 @@ the equilibrium of the plastic law alone.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from foilstudy.base.errors import Refusal
@@ -13,7 +14,10 @@ from foilstudy.base.ranges import require_number
 from foilstudy.base.registry import did_you_mean
 from foilstudy.model.material_table import MATERIALS, MaterialConstants
 
-__all__ = ["MATERIALS", "Material", "MaterialConstants", "material"]
+__all__ = ["MATERIALS", "RELAXATION_ONSET", "Material", "MaterialConstants", "material"]
+
+RELAXATION_ONSET = 60.0
+"""s; about what fitting a foil takes, from where on its relaxation counts."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +39,8 @@ class Material:
         A name of `foilstudy.model.shell.material.LAWS`.
     hardening : float or None
         Slope of stress over plastic strain, Pa, for the plastic law; None: what that takes for it.
+    relaxation_per_decade : float
+        Share of its stress that a held foil loses in each tenfold of time.
     """
 
     youngs_modulus: float
@@ -44,6 +50,7 @@ class Material:
     name: str = ""
     law: str = "elastic"
     hardening: float | None = None
+    relaxation_per_decade: float = 0.0
 
     def __post_init__(self):
         require_number("Young's modulus of a material", self.youngs_modulus, "Pa", above=0)
@@ -52,6 +59,16 @@ class Material:
         require_number("yield stress of a material", self.yield_stress, "Pa", above=0)
         if self.hardening is not None:
             require_number("hardening of a material", self.hardening, "Pa", least=0)
+        slope = self.relaxation_per_decade
+        require_number("relaxation of a material per decade", slope, least=0, most=1)
+
+    def stress_kept(self, seconds: float) -> float:
+        """Share of its stress that a held foil still has after a while: 1 - slope log10(1 + t/t0).
+
+        t0 is `RELAXATION_ONSET`. Zero is the least.
+        """
+        decades = math.log10(1 + seconds / RELAXATION_ONSET)
+        return max(0.0, 1 - self.relaxation_per_decade * decades)
 
     def __repr__(self) -> str:
         return (

@@ -57,7 +57,7 @@ def crumple(
             return start
         way = start.points[2, -1].mean() - foil.gap_height, start.points
     if not coarsenings:
-        return _arrived(start, path.follow(start.problem(), *way))
+        return _at_rest(_arrived(start, path.follow(start.problem(), *way)))
     crumpled = _arrived(start, path.push(start.problem(), *way))
     for finer in range(1, coarsenings + 1):
         if crumpled.status not in USABLE:
@@ -65,7 +65,12 @@ def crumple(
         before, crumpled = crumpled.arrival, crumpled.refined()
         relax = path.settle if finer == coarsenings else path.relax
         crumpled = _arrived(crumpled, relax(crumpled.problem(), crumpled.points).after(before))
-    return crumpled
+    return _at_rest(crumpled)
+
+
+def _at_rest(crumpled: Crumpled) -> Crumpled:
+    """After the time that it stands before it is measured."""
+    return crumpled.waited(crumpled.method.waiting) if crumpled.status in USABLE else crumpled
 
 
 def without_imperfection(start: Crumpled) -> Crumpled:

@@ -21,6 +21,7 @@ from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.model.patch import Patch
 from foilstudy.pipeline.evidence import evidence_of
 from foilstudy.pipeline.method import Mesh, Method
+from foilstudy.pipeline.rest import STRESS_KEPT_MIN, Rest
 from foilstudy.pipeline.shape import Shape
 from foilstudy.pipeline.static import (
     MeshLimit,
@@ -84,11 +85,14 @@ class Crumpled(Shape):
         How the equilibrium was reached; None where it was not sought here.
     faults : SurfaceFaults or None
         Of a shape from elsewhere.
+    rest : Rest or None
+        None as long as the foil has kept all its stress.
     """
 
     recipe: Recipe | None = None
     arrival: Arrival | None = None
     faults: SurfaceFaults | None = None
+    rest: Rest | None = None
 
     def __repr__(self) -> str:
         how = f", {self.arrival.status}" if self.arrival else ""
@@ -121,12 +125,36 @@ class Crumpled(Shape):
         """Whether the foil is more than an elastic shell, and so in a state of its own."""
         return len(self.problem().terms) > 1
 
+    @property
+    def stress_kept(self) -> float:
+        """Share of its stress that waiting has left."""
+        return self.rest.stress_kept if self.rest else 1.0
+
     def problem(self) -> Problem:
         """The potential energy of the foil, at the state in which it has arrived."""
         problem = super().problem()
         if self.arrival and self.arrival.state:
-            problem.state = self.arrival.state
+            # what has let go since has no memory, and its state comes last
+            problem.state = self.arrival.state[: len(problem.terms)]
+        return self._rested(problem) if self.rest else problem
+
+    def _rested(self, before: Problem) -> Problem:
+        """The foil of before with all its moduli scaled down, and what has let go beside it."""
+        left = replace(self, foil=self.rest.weakened(self.foil), arrival=None, rest=None)
+        problem = self.rest.problem(self, left.problem())
+        problem.restore(before.recorded())
         return problem
+
+    def waited(self, seconds: float) -> Self:
+        """The same foil after it has stood in its shape; it keeps less of its stress.
+
+        Parameters
+        ----------
+        seconds : float
+            Since it came to rest, s; its material says how much that takes.
+        """
+        kept = max(STRESS_KEPT_MIN, self.foil.material.stress_kept(seconds))
+        return replace(self, rest=Rest(kept, self.points)) if kept < 1 else self
 
     def refined(self) -> Self:
         """The same shape with every element split in four, at the same state.
@@ -137,6 +165,8 @@ class Crumpled(Shape):
             If a term of the problem has a memory that cannot be split.
         """
         refined = super().refined()
+        if self.rest:
+            refined = replace(refined, rest=self.rest.refined())
         if not (self.arrival and self.arrival.state):
             return refined
         return refined._remembering(self.problem().split())
@@ -267,7 +297,8 @@ class Crumpled(Shape):
             int(values["steps"]), int(values["newton_steps"]), int(values["hessians"]), None,
         )  # fmt: skip
         element = recipe.mesh.element_at_work()
-        return cls(foil, patch, points, reference, element, recipe, arrival)._remembering(values)
+        crumpled = cls(foil, patch, points, reference, element, recipe, arrival)
+        return crumpled._remembering(values).waited(recipe.method.waiting)
 
 
 _RECIPE = {"mesh": Mesh, "imperfection": Imperfection, "method": Method}

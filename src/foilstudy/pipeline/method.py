@@ -77,10 +77,16 @@ class Method:
         From the cylinder to the equilibrium, with all its numbers.
     stress_removal : StressRemoval
         What makes the crumple stress-free before it is measured.
+    waiting : float
+        How long the foil then stands before it is measured, s.
     """
 
     path: Path = choice_field(PATHS, RelaxationPath)
     stress_removal: StressRemoval = choice_field(STRESS_REMOVALS, Reset)
+    waiting: float = 0.0
+
+    def __post_init__(self):
+        require_number("waiting time of a method", self.waiting, "s", least=0)
 
     def __repr__(self) -> str:
         return f"<Method: path {self.path.kind}, stress removal {self.stress_removal.kind}>"

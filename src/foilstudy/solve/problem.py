@@ -107,10 +107,13 @@ class Problem:
     shell : Shell
     others : Term
         Further terms.
+    whole : Shell, optional
+        As stiff as shell and terms together at least, where the shell is only a share of the foil;
+        the masses of a relaxation are made for it.
 
     Attributes
     ----------
-    shell : Shell
+    shell, whole : Shell
     terms : tuple of Term
     energy_names : tuple of str
         Of all terms, in their order; the first ones are the shell's.
@@ -118,8 +121,8 @@ class Problem:
         One for each term; as last committed.
     """
 
-    def __init__(self, shell: Shell, *others: Term):
-        self.shell = shell
+    def __init__(self, shell: Shell, *others: Term, whole: Shell | None = None):
+        self.shell, self.whole = shell, whole or shell
         self.terms: tuple[Term, ...] = (shell, *others)
         names = [name for term in self.terms for name in term.energy_names]
         # a second one of a name is told apart

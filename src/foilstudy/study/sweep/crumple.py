@@ -121,4 +121,5 @@ def _numbers(crumpled: Crumpled) -> dict[str, float]:
         "radial_displacement_rms": np.sqrt(np.mean(radial**2)),
         **sensors(crumpled),
         **problem.numbers(),
+        **({"stress_kept": crumpled.stress_kept} if crumpled.beyond_elastic else {}),
     }

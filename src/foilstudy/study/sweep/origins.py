@@ -33,6 +33,7 @@ _CRUMPLING = (
     "pipeline.crumpled",
     "pipeline.evidence",
     "pipeline.method",
+    "pipeline.rest",
     "pipeline.retry",
     "pipeline.shape",
     "base.spec",

@@ -151,6 +151,7 @@ QUANTITIES: dict[str, Declared] = {
     "plastic_share": Declared("1", "share of the volume that has yielded", only="yielding"),
     "plastic_strain_max": Declared("1", "largest accumulated plastic strain", only="yielding"),
     "dissipated_work": Declared("J", "work that plastic flow has used up", only="yielding"),
+    "stress_kept": _true("1", "share of the stress that waiting has left"),
     "self_crossing_share": Declared("1", "share of the surface crossed by another part"),
     "broad_wave_share": Declared(
         "1", "share of the radial displacement that bulges or sways the cylinder as a whole"

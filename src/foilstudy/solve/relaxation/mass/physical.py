@@ -38,8 +38,8 @@ class PhysicalSheet:
     """
 
     def __init__(self, problem: Problem):
-        self._shell = problem.shell
-        section = problem.shell.section
+        self._shell = problem.whole
+        section = problem.whole.section
         self._element_masses = section.law.material.density * section.thickness * section.areas
         self.element_mass = float(self._element_masses.mean())
 

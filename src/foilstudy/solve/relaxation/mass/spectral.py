@@ -77,7 +77,7 @@ class SpectralMassScaling:
 
     def start(self, problem: Problem) -> SpectralMass:
         """See `MassScaling`; of the terms it knows the shell alone."""
-        return SpectralMass(problem.shell.section, self)
+        return SpectralMass(problem.whole.section, self)
 
 
 class SpectralMass:

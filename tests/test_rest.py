@@ -1,0 +1,133 @@
+"""Creases that relax: stress that falls in a held shape, and what that does to the stiffness."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from conftest import FEP, FOIL
+
+from foilstudy.base.errors import Refusal
+from foilstudy.base.record import read_record
+from foilstudy.config import ConfigError, load_config
+from foilstudy.model.foil import Imperfection
+from foilstudy.model.materials import RELAXATION_ONSET
+from foilstudy.model.patch import RING_ROWS
+from foilstudy.pipeline.crumple import crumple
+from foilstudy.pipeline.crumpled import Crumpled
+from foilstudy.pipeline.method import Mesh, Method
+from foilstudy.pipeline.rest import Rest
+from foilstudy.solve.paths.relaxation import RelaxationPath
+from foilstudy.study.sweep.crumple import crumple_job
+
+HOUR, DAY = 3600.0, 86400.0
+RELAXING = replace(FEP, relaxation_per_decade=0.1)
+
+
+@pytest.fixture(scope="module", params=["elastic", "plastic"])
+def fitted(request):
+    foil = replace(FOIL, material=replace(RELAXING, law=request.param))
+    return crumple(foil, Mesh(20e-3), Imperfection(seed=3), Method(RelaxationPath(ramp_steps=400)))
+
+
+def forces(crumpled):
+    out = np.empty_like(crumpled.points)
+    energies = crumpled.problem().force(crumpled.points, out)
+    return energies.sum(), out
+
+
+def test_the_law_is_logarithmic():
+    kept = [RELAXING.stress_kept(RELAXATION_ONSET * (10**n - 1)) for n in range(4)]
+    np.testing.assert_allclose(kept, [1.0, 0.9, 0.8, 0.7])
+    assert RELAXING.stress_kept(1e30) == 0.0 and FEP.stress_kept(DAY) == 1.0
+
+
+def test_without_waiting_nothing_changes(fitted):
+    assert fitted.waited(0.0) is fitted and fitted.stress_kept == 1.0
+
+
+def test_forces_and_energy_fall_by_the_share_and_the_shape_rests_on(fitted):
+    energy, force = forces(fitted)
+    before = 1.0
+    for hours in (1.0, 24.0, 1000.0):
+        rested = fitted.waited(hours * HOUR)
+        share = rested.stress_kept
+        assert 0 < share < before
+        before = share
+        now, less = forces(rested)
+        assert now == pytest.approx(share * energy, rel=1e-12)
+        np.testing.assert_allclose(less, share * force, atol=1e-10 * np.abs(force).max())
+    again = rested.settled()
+    assert again.status == "converged" and again.arrival.hessians == 0
+    assert np.abs(again.points - rested.points).max() < 1e-12
+
+
+def test_the_stiffness_goes_from_the_stressed_to_the_stress_free_one(fitted):
+    stressed, free = fitted.prestressed_stiffness(), fitted.stiffness()
+    rested = [fitted.waited(t).prestressed_stiffness() for t in (HOUR, DAY, 1000 * HOUR)]
+    levels = np.array([stressed, *rested, free])
+    assert (np.diff(levels, axis=0) > 0).all()
+    all_gone = replace(fitted, rest=Rest(1e-9, fitted.points))
+    np.testing.assert_allclose(all_gone.prestressed_stiffness(), free, rtol=1e-6)
+
+
+def test_what_has_rested_resists_by_its_tangent(fitted):
+    """The force away from the shape is that of both shares, old and new."""
+    rested = fitted.waited(DAY)
+    problem, points = rested.problem(), rested.points.copy()
+    pull, settling = 5e-6, rested.method.path
+    force = forces(rested)[1][2, -RING_ROWS:].sum()
+    points[2, -RING_ROWS:] += pull
+    arrived = settling.settle(problem, points)
+    assert arrived.status == "converged", arrived.message
+    moved = replace(rested, points=arrived.points, arrival=arrived)
+    secant = (forces(moved)[1][2, -RING_ROWS:].sum() - force) / pull
+    assert secant == pytest.approx(rested.prestressed_stiffness()[0], rel=0.01)
+
+
+def test_it_goes_on_to_a_finer_mesh(fitted):
+    finer = fitted.waited(DAY).refined()
+    settled = finer.settled()
+    assert settled.status == "converged", settled.message
+    assert settled.stress_kept == fitted.waited(DAY).stress_kept
+
+
+def test_a_study_waits(tmp_path):
+    study = load_config(
+        {
+            "material": {"law": "plastic", "relaxation_per_decade": 0.1},
+            "installation": {"waiting_hours": 24},
+            "sweep": {"thickness_um": [500], "reference_height_mm": [170]},
+            "mesh": {"element_size_mm": 20},
+            "relaxation": {"ramp_steps": 400},
+        }
+    )
+    assert study.beyond_elastic
+    crumple_job(study.crumple_task(study.cells()[0]), tmp_path / "crumple.nc")
+    values, _ = read_record(tmp_path / "crumple.nc")
+    expected = 1 - 0.1 * np.log10(1 + DAY / RELAXATION_ONSET)
+    assert values["stress_kept"] == pytest.approx(expected)
+    back = Crumpled.recorded(tmp_path / "crumple.nc")
+    energy, force = forces(back)
+    assert back.stress_kept == values["stress_kept"]
+    assert values["reaction_force"] == -force[2, -RING_ROWS:].sum()
+    parts = ("membrane", "bending", "stabilisation", "plastic_relief", "renewed")
+    assert energy == pytest.approx(sum(values[f"{name}_energy"] for name in parts))
+
+
+@pytest.mark.parametrize(
+    ("sections", "sentence"),
+    [
+        ({"installation": {"waiting_hours": 1}}, "without material.relaxation_per_decade nothing"),
+        ({"material": {"relaxation_per_decade": 0.1}}, "without installation.waiting_hours"),
+        ({"material": {"relaxation_per_decade": 1.5}}, "out of range"),
+    ],
+)
+def test_half_of_it_is_refused(sections, sentence):
+    sweep = {"thickness_um": [500], "reference_height_mm": [150]}
+    with pytest.raises(ConfigError, match=sentence):
+        load_config({"sweep": sweep} | sections)
+
+
+def test_negative_time_is_refused():
+    with pytest.raises(Refusal, match="waiting time of a method"):
+        Method(waiting=-1.0)
