@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from foilstudy.config.air import Air as AirSection
 from foilstudy.config.mesh import Mesh as MeshSection
 from foilstudy.config.sections import Dynamics
 from foilstudy.config.tasks import CrumpleTask
-from foilstudy.measure.choices import STRESS_REMOVALS, STRUCTURAL_DAMPINGS
+from foilstudy.measure.air.protocols import Air
+from foilstudy.measure.choices import AIRS, ENCLOSURES, STRESS_REMOVALS, STRUCTURAL_DAMPINGS
 from foilstudy.measure.dynamics import DynamicsOptions
 from foilstudy.model.foil import Imperfection
 from foilstudy.pipeline.crumpled import Recipe
@@ -53,6 +55,12 @@ def method_of(task: CrumpleTask) -> Method:
         stages = tuple(each / 100 for each in task.installation.stops_percent)
         path = replace(path, stages=stages)
     return Method(path, STRESS_REMOVALS[method.stress_removal]())
+
+
+def air_of(section: AirSection) -> Air:
+    """What surrounds the foil in its dynamics."""
+    enclosure = ENCLOSURES[section.enclosed].under(section.pressure_kpa * 1e3)
+    return AIRS[section.kind].of(section.density_kg_m3, enclosure)
 
 
 def dynamics_of(section: Dynamics) -> DynamicsOptions:

@@ -33,6 +33,8 @@ class Declared:
         From the one to the other.
     yielding : bool
         Whether there is one only where the material law lets the foil yield.
+    in_air : bool
+        Whether there is one only where there is air about the foil.
     """
 
     units: str
@@ -42,6 +44,7 @@ class Declared:
     cube_units: str = ""
     cube_scale: float = 1.0
     yielding: bool = False
+    in_air: bool = False
 
 
 def _length(words: str) -> Declared:
@@ -84,6 +87,16 @@ QUANTITIES: dict[str, Declared] = {
     "dynamic_stiffness_im": Declared("N/m", "dynamic stiffness, imaginary part", _DYNAMIC),
     "eigenfrequency": Declared("Hz", "eigenfrequency, rings clamped", ("mode",)),
     "first_eigenfrequency": Declared("Hz", "first eigenfrequency, rings clamped"),
+    "vacuum_first_eigenfrequency": Declared(
+        "Hz", "first eigenfrequency without the air, rings clamped", in_air=True
+    ),
+    "enclosed_volume": Declared(
+        "m3",
+        "volume between foil and end plates",
+        cube_units="l",
+        cube_scale=1e3,
+        in_air=True,
+    ),
     "membrane_energy": Declared("J", "membrane energy"),
     "bending_energy": Declared("J", "bending energy"),
     "stabilisation_energy": Declared("J", "stabilisation energy"),

@@ -12,14 +12,15 @@ from foilstudy.base.record import write_record
 from foilstudy.base.spec import dumped
 from foilstudy.config import ResponseTask
 from foilstudy.config.foils import foil_of
-from foilstudy.config.scene import dynamics_of
-from foilstudy.linalg import SolveError
+from foilstudy.config.scene import air_of, dynamics_of
+from foilstudy.linalg import SolveError, lowest_modes
+from foilstudy.measure.air.surface import WettedSurface
 from foilstudy.measure.dynamics import DynamicsOptions, Structure
 from foilstudy.measure.stiffness import fixed_stiffness, free_stiffness
 from foilstudy.measure.verdicts import Evidence, flags, verdicts
 from foilstudy.model.patch import Patch
 from foilstudy.pipeline.crumpled import Crumpled
-from foilstudy.pipeline.structures import stress_free_structure
+from foilstudy.pipeline.structures import in_air, stress_free_structure
 from foilstudy.pipeline.vibration import surface_modes, vibration_of
 from foilstudy.study.sweep.origins import read_crumple, response_origin
 from foilstudy.study.sweep.outcome import Outcome, Values, outcome_of
@@ -108,6 +109,9 @@ def _measured(task: ResponseTask, crumpled: Crumpled) -> Values:
         structure = stress_free_structure(crumpled)
         values = _static(crumpled, structure, task)
     with measured() as dynamic:
+        if task.air.kind != "none":
+            values |= _without_air(structure, crumpled)
+        structure = in_air(crumpled, structure, air_of(task.air))
         values |= _dynamic(structure, dynamics_of(task.dynamics), crumpled.patch)
     return values | {"seconds_static": static.seconds, "seconds_dynamic": dynamic.seconds}
 
@@ -127,6 +131,16 @@ def _static(crumpled: Crumpled, structure: Structure, task: ResponseTask) -> Val
         "static_refinements": float(limit.refinements),
         "interface_stiffness": interface,
         "prestressed_stiffness": _prestressed(crumpled),
+    }
+
+
+def _without_air(structure: Structure, crumpled: Crumpled) -> Values:
+    """What the numbers with air are compared with, and how much of it is enclosed."""
+    stiffness, mass = structure.stiffness.interior, structure.mass.interior
+    first = lowest_modes(stiffness, mass, structure.static.factor, 1).eigenvalues[0]
+    return {
+        "vacuum_first_eigenfrequency": float(np.sqrt(first) / (2 * np.pi)),
+        "enclosed_volume": WettedSurface(crumpled.patch, crumpled.points).volume,
     }
 
 
