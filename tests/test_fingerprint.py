@@ -38,6 +38,8 @@ REGISTRIES = {
     "reduction": "measure.choices",
     "damping": "measure.choices",
     "export format": "export.formats",
+    "surrounding air": "measure.choices",
+    "enclosed air": "measure.choices",
 }
 """By kind, the modules that hold them."""
 NOT_IN_TASKS = {

@@ -13,6 +13,7 @@ from pydantic import Field, model_validator
 from foilstudy.base.errors import ConfigError
 
 from .accuracy import ACCURACIES, STANDARD, Accuracy, completed
+from .air import Air
 from .export import Export
 from .isolation import Isolation
 from .mesh import Mesh, MeshUse, mesh_problems, refinements_that_fit
@@ -128,6 +129,7 @@ class StudyConfig(Section):
     method: Method = Field(default_factory=Method, description="Strategies of crumpling.")
     stiffness: Stiffness = Field(default_factory=Stiffness, description="Static stiffness.")
     dynamics: Dynamics = Field(default_factory=Dynamics, description="Dynamic stiffness.")
+    air: Air = Field(default_factory=Air, description="Air about the foil.")
     isolation: Isolation = Field(
         default_factory=Isolation, description="Isolated payload with foil links."
     )
@@ -398,6 +400,7 @@ class StudyConfig(Section):
             error_percent=self.stiffness.error_percent,
             refinements=self._refinements_of(cell),
             dynamics=self.dynamics,
+            air=self.air,
             thickness_um=cell.thickness_um,
             reference_height_mm=cell.reference_height_mm,
             seed=cell.seed,

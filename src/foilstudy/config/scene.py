@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from foilstudy.config.air import Air as AirSection
 from foilstudy.config.mesh import Mesh as MeshSection
 from foilstudy.config.sections import Dynamics
 from foilstudy.config.tasks import CrumpleTask
-from foilstudy.measure.choices import STRESS_REMOVALS, STRUCTURAL_DAMPINGS
+from foilstudy.measure.air.protocols import Air
+from foilstudy.measure.choices import AIRS, ENCLOSURES, STRESS_REMOVALS, STRUCTURAL_DAMPINGS
 from foilstudy.measure.dynamics import DynamicsOptions
 from foilstudy.model.foil import Imperfection
 from foilstudy.pipeline.crumpled import Recipe
@@ -55,6 +57,12 @@ def method_of(task: CrumpleTask) -> Method:
         path = replace(path, stages=stages)
     removal = STRESS_REMOVALS[method.stress_removal]()
     return Method(path, removal, 3600 * task.installation.waiting_hours)
+
+
+def air_of(section: AirSection) -> Air:
+    """What surrounds the foil in its dynamics."""
+    enclosure = ENCLOSURES[section.enclosed].under(section.pressure_kpa * 1e3)
+    return AIRS[section.kind].of(section.density_kg_m3, enclosure)
 
 
 def dynamics_of(section: Dynamics) -> DynamicsOptions:

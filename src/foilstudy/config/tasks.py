@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
+from .air import Air
 from .mesh import Mesh
 from .sections import (
     Dynamics,
@@ -61,3 +62,4 @@ class ResponseTask(_Task):
     error_percent: float | None = None
     refinements: int = Field(ge=0)
     dynamics: Dynamics
+    air: Air

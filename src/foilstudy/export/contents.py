@@ -9,6 +9,8 @@ from functools import cached_property
 import numpy as np
 
 from foilstudy.base.errors import Refusal
+from foilstudy.measure.air.protocols import Air
+from foilstudy.measure.air.vacuum import Vacuum
 from foilstudy.measure.dynamics import (
     CONDITIONS,
     Damping,
@@ -21,7 +23,7 @@ from foilstudy.measure.dynamics import (
 )
 from foilstudy.model.patch import RING_ROWS, knot_points, refine
 from foilstudy.pipeline.shape import Shape
-from foilstudy.pipeline.structures import stress_free_structure
+from foilstudy.pipeline.structures import in_air, stress_free_structure
 
 POINTS_PER_ELEMENT = 2
 """Cells of the exported grid per element and direction: a biquadratic element is exactly the
@@ -39,11 +41,14 @@ class Contents:
         Reduction, band, damping, and how many mode shapes are written as fields.
     provenance : mapping of str to str
         Goes into every file.
+    air : Air
+        What surrounds the foil.
     """
 
     crumple: Shape
     options: DynamicsOptions
     provenance: Mapping[str, str] = field(default_factory=dict)
+    air: Air = field(default_factory=Vacuum)
 
     def __repr__(self) -> str:
         return f"<Contents: {self.crumple.foil}; {self.options}>"
@@ -54,9 +59,10 @@ class Contents:
         crumple: Shape,
         options: DynamicsOptions | None = None,
         provenance: Mapping[str, str] | None = None,
+        air: Air | None = None,
     ) -> Contents:
         """Of a crumple, with the dynamics that a study has by default."""
-        return cls(crumple, options or DynamicsOptions(), provenance or {})
+        return cls(crumple, options or DynamicsOptions(), provenance or {}, air or Vacuum())
 
     @property
     def model(self) -> ReducedModel:
@@ -77,7 +83,8 @@ class Contents:
     def _reduced(self) -> ReducedModel | Exception:
         """The model, or what kept it from being made: no format after the first tries again."""
         try:
-            model = self.options.reduced(stress_free_structure(self.crumple))
+            structure = in_air(self.crumple, stress_free_structure(self.crumple), self.air)
+            model = self.options.reduced(structure)
         except Exception as problem:
             return problem
         # a model without an estimate is valid as it stands

@@ -14,6 +14,7 @@ from foilstudy.linalg.eigenpairs import (
 from foilstudy.linalg.errors import SolveError
 from foilstudy.linalg.factorisation import Factorisation, backend, factorise
 from foilstudy.linalg.krylov import BlockKrylov, mass_orthonormal
+from foilstudy.linalg.updated import Updated, combined, updated
 
 __all__ = [
     "MODES_MAX",
@@ -24,7 +25,9 @@ __all__ = [
     "Modes",
     "SolveError",
     "TooManyModes",
+    "Updated",
     "backend",
+    "combined",
     "dissection",
     "factorise",
     "largest_eigenvalue",
@@ -32,4 +35,5 @@ __all__ = [
     "mass_orthonormal",
     "modes_below",
     "shifted",
+    "updated",
 ]

@@ -16,6 +16,7 @@ from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
 
 from foilstudy.linalg.errors import SolveError, refuse_not_finite
 from foilstudy.linalg.factorisation import Factorisation, factorise
+from foilstudy.linalg.updated import Updated, combined
 
 _BLOCK = 16
 _SHIFT = 0.45
@@ -53,7 +54,7 @@ def shifted(
     """
     for nudge in _NUDGES:
         try:
-            return factorise((stiffness - nudge * shift * mass).tocsr()), nudge * shift
+            return factorise(combined(1.0, stiffness, -nudge * shift, mass)), nudge * shift
         except SolveError as error:
             problem = error
     raise problem
@@ -144,9 +145,9 @@ def lowest_modes(
         )
     try:
         values, shapes = eigsh(
-            stiffness,
+            _operator(stiffness),
             count,
-            mass,
+            _operator(mass),
             sigma=0.0,
             OPinv=LinearOperator((size, size), matvec=inverse.solve, dtype=float),
             v0=np.cos(np.arange(size, dtype=float)),  # any start will do; a fixed one: same bits
@@ -155,6 +156,13 @@ def lowest_modes(
         raise SolveError(f"the first {count} modes did not converge: {error}") from error
     order = np.argsort(values)
     return Modes(values[order], shapes[:, order])
+
+
+def _operator(matrix: sparse.csr_matrix | Updated) -> sparse.csr_matrix | LinearOperator:
+    """As ARPACK takes it."""
+    if isinstance(matrix, Updated):
+        return LinearOperator(matrix.shape, matvec=matrix.__matmul__, dtype=float)
+    return matrix
 
 
 def largest_eigenvalue(stiffness: sparse.csr_matrix, mass: sparse.csr_matrix) -> float:

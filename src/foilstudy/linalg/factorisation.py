@@ -14,9 +14,10 @@ import scipy.sparse as sparse
 
 from foilstudy.linalg import pardiso
 from foilstudy.linalg.blocks import SymmetricBlocks
-from foilstudy.linalg.errors import SolveError
+from foilstudy.linalg.errors import SolveError, refuse_not_finite
 from foilstudy.linalg.pardiso import PardisoFactorisation
 from foilstudy.linalg.superlu import SuperLUFactorisation
+from foilstudy.linalg.updated import Updated
 
 
 class Factorisation(Protocol):
@@ -43,15 +44,16 @@ square of element size over thickness, 1e4 in the published case; sheets without
 
 
 def factorise(
-    matrix: sparse.csr_matrix | SymmetricBlocks, residual_tolerance: float = 1e-8
+    matrix: sparse.csr_matrix | SymmetricBlocks | Updated, residual_tolerance: float = 1e-8
 ) -> Factorisation:
     """Factor a symmetric matrix and check it on one right-hand side.
 
     Parameters
     ----------
-    matrix : csr_matrix or SymmetricBlocks
+    matrix : csr_matrix, SymmetricBlocks or Updated
         Real or complex symmetric (not Hermitian), both triangles stored; or blocks of a real one
-        that has to be positive definite, which take less time.
+        that has to be positive definite, which take less time; or a sparse one with a term of low
+        rank, of which the sparse part must be regular, too.
     residual_tolerance : float
         Largest accepted relative residual of the check, |A x - b| / (|A| |x|), scaled to a unit
         diagonal: unknowns may have units of their own, such as m and rad.
@@ -62,14 +64,18 @@ def factorise(
         If the matrix is singular to working precision, blocks are not positive definite, or the
         check fails.
     """
-    if backend() == "pardiso":
+    plain = matrix
+    if isinstance(matrix, Updated):
+        plain = matrix.sparse
+        factor = UpdatedFactorisation(factorise(plain, residual_tolerance), matrix)
+    elif backend() == "pardiso":
         factor = PardisoFactorisation(matrix)
     else:
         factor = SuperLUFactorisation(matrix)
-    sizes = _sizes(matrix)
+    sizes = _sizes(plain)
     probe = sizes * np.cos(np.arange(matrix.shape[0], dtype=float))
     solution = factor.solve(probe)
-    amplification = (abs(matrix) @ (1 / sizes) / sizes).max() * np.abs(sizes * solution).max()
+    amplification = (abs(plain) @ (1 / sizes) / sizes).max() * np.abs(sizes * solution).max()
     residual = np.abs((matrix @ solution - probe) / sizes).max() / amplification
     if not (residual <= residual_tolerance and amplification <= _SINGULAR):
         raise SolveError(
@@ -86,3 +92,43 @@ def _sizes(matrix: sparse.csr_matrix | SymmetricBlocks) -> np.ndarray:
         largest = abs(matrix).max(axis=1).toarray().ravel()
         sizes = np.where(sizes > 0, sizes, np.where(largest > 0, largest, 1.0))
     return np.sqrt(sizes)
+
+
+class UpdatedFactorisation:
+    """Of A + U W U^T, by the factors of A (Woodbury's formula).
+
+    With G = W^-1 + U^T A^-1 U, the inverse is A^-1 - A^-1 U G^-1 U^T A^-1, and by the two ways of
+    eliminating [[A, U], [U^T, -W^-1]] the sum has as many negative eigenvalues more than A as G
+    has positive ones more than W.
+
+    Parameters
+    ----------
+    base : Factorisation
+        Of A.
+    matrix : Updated
+
+    Raises
+    ------
+    SolveError
+        If the sum is singular.
+    """
+
+    def __init__(self, base: Factorisation, matrix: Updated):
+        self._base, self._factors = base, matrix.factors
+        self._solved = base.solve(matrix.factors)
+        core = np.diag(1 / matrix.weights) + matrix.factors.T @ self._solved
+        core = 0.5 * (core + core.T)
+        refuse_not_finite(core, "the core of a term of low rank")
+        self.negative_eigenvalues = None
+        if base.negative_eigenvalues is not None:
+            more = (np.linalg.eigvalsh(core) > 0).sum() - (matrix.weights > 0).sum()
+            self.negative_eigenvalues = base.negative_eigenvalues + int(more)
+        try:
+            self._inverse = np.linalg.inv(core)
+        except np.linalg.LinAlgError as error:
+            raise SolveError("a matrix with a term of low rank is singular") from error
+
+    def solve(self, rhs: np.ndarray) -> np.ndarray:
+        """Solve for one or several right-hand sides."""
+        plain = self._base.solve(rhs)
+        return plain - self._solved @ (self._inverse @ (self._factors.T @ plain))

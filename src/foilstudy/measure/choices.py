@@ -55,6 +55,32 @@ REDUCTIONS = Registry(
         "guyan": ReductionChoice("measure.dynamics.reductions.guyan:Guyan", "quasi-static"),
     },
 )
+AIRS = Registry(
+    "surrounding air",
+    {
+        "none": Choice("measure.air.vacuum:Vacuum", "vacuum"),
+        "added_mass": Choice(
+            "measure.air.added_mass:AddedMass",
+            "air moves with the foil on both sides, without friction",
+        ),
+    },
+)
+ENCLOSURES = Registry(
+    "enclosed air",
+    {
+        "vented": Choice(
+            "measure.air.enclosures:Vented", "its mean pressure is that outside, by an opening"
+        ),
+        "sealed_isothermal": Choice(
+            "measure.air.enclosures:SealedIsothermal",
+            "it is compressed and keeps its temperature, as far below 0.01 Hz",
+        ),
+        "sealed_adiabatic": Choice(
+            "measure.air.enclosures:SealedAdiabatic",
+            "it is compressed and warms, as above 0.1 Hz",
+        ),
+    },
+)
 STRUCTURAL_DAMPINGS = Registry(
     "damping",
     {

@@ -13,6 +13,8 @@ from foilstudy.base.errors import Refusal
 from foilstudy.base.outcome import USABLE
 from foilstudy.base.record import read_record
 from foilstudy.base.spec import dumped, loaded
+from foilstudy.measure.air.protocols import Air
+from foilstudy.measure.air.vacuum import Vacuum
 from foilstudy.measure.dynamics import DynamicsOptions
 from foilstudy.measure.stiffness import prestressed_stiffness
 from foilstudy.measure.stiffness.stress_removal import Relieved, StressRemoval
@@ -29,7 +31,7 @@ from foilstudy.pipeline.static import (
     mesh_limit_within,
     stress_free_stiffness,
 )
-from foilstudy.pipeline.structures import stress_free_structure
+from foilstudy.pipeline.structures import in_air, stress_free_structure
 from foilstudy.pipeline.vibration import Vibration, vibration_of
 from foilstudy.solve.paths import Arrival
 from foilstudy.solve.problem import Problem
@@ -222,15 +224,24 @@ class Crumpled(Shape):
         """What the numbers of the crumple say of it, see `foilstudy.measure.verdicts`."""
         return verdicts(evidence_of(self, self.arrival))
 
-    def vibration(self, options: DynamicsOptions | None = None) -> Vibration:
+    def vibration(
+        self, options: DynamicsOptions | None = None, air: Air | None = None
+    ) -> Vibration:
         """Dynamic stiffness, eigenfrequencies and mode shapes of the stress-free shape.
+
+        Parameters
+        ----------
+        options : DynamicsOptions, optional
+        air : Air, optional
+            What surrounds it; nothing if left out.
 
         Raises
         ------
         SolveError
             If a factorisation, the reduction or a mode search fails.
         """
-        return vibration_of(stress_free_structure(self), options or DynamicsOptions())
+        structure = in_air(self, stress_free_structure(self), air or Vacuum())
+        return vibration_of(structure, options or DynamicsOptions())
 
     def plot(self, ax=None):
         """Shaded picture, coloured by radial displacement.

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sparse
 
+from foilstudy.measure.air.protocols import Air
+from foilstudy.measure.air.surface import WettedSurface
 from foilstudy.measure.dynamics.structure import Structure
 from foilstudy.measure.stiffness import InterfaceSystem, Rings
 from foilstudy.measure.stiffness.rings import interface_rigid_modes
@@ -38,6 +40,18 @@ def prestressed_structure(shape: Shape) -> Structure:
     """
     translations = _rigid_motions(shape)[:, :3]
     return Structure.assembled(prestressed_stiffness(shape), mass(shape), translations)
+
+
+def in_air(shape: Shape, structure: Structure, air: Air) -> Structure:
+    """A structure of the shape with what the air adds to it.
+
+    Raises
+    ------
+    SolveError
+        If the stiffness with the enclosed air is singular.
+    """
+    surface = WettedSurface(shape.patch, shape.points)
+    return air.about(structure, surface, Rings.of(shape.patch, shape.points))
 
 
 def stress_free_stiffness(shape: Shape) -> InterfaceSystem:

@@ -11,10 +11,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from foilstudy.measure.air.protocols import Air
+from foilstudy.measure.air.vacuum import Vacuum
 from foilstudy.measure.dynamics import DynamicsOptions
 from foilstudy.measure.stiffness import fixed_stiffness
 from foilstudy.pipeline.shape import Shape
-from foilstudy.pipeline.structures import prestressed_structure
+from foilstudy.pipeline.structures import in_air, prestressed_structure
 from foilstudy.pipeline.vibration import Vibration, vibration_of
 
 
@@ -54,8 +56,10 @@ class TrueState:
         )
 
 
-def true_state(shape: Shape, options: DynamicsOptions) -> TrueState:
+def true_state(shape: Shape, options: DynamicsOptions, air: Air | None = None) -> TrueState:
     """Static and dynamic stiffness of a shape at its state, stresses and all.
+
+    The air acts in the dynamics alone, as it does about the stress-free shape.
 
     Raises
     ------
@@ -65,5 +69,7 @@ def true_state(shape: Shape, options: DynamicsOptions) -> TrueState:
     structure = prestressed_structure(shape)
     interface, negative = structure.static.stiffness, structure.static.factor.negative_eigenvalues
     ring = int((np.linalg.eigvalsh(interface[6:, 6:]) < 0).sum())
-    vibration = None if negative else vibration_of(structure, options)
+    vibration = None
+    if not negative:
+        vibration = vibration_of(in_air(shape, structure, air or Vacuum()), options)
     return TrueState(interface, negative, ring, vibration)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sparse
 
-from foilstudy.linalg import SolveError
+from foilstudy.linalg import SolveError, Updated
 from foilstudy.measure.stiffness import InterfaceSystem, StaticCondensation, condense
 
 INTERFACE = 12
@@ -95,9 +95,12 @@ def _check_resistance(before: np.ndarray, condensed: np.ndarray, motions: np.nda
         )
 
 
-def bordered(system: InterfaceSystem) -> sparse.csr_matrix:
+def bordered(system: InterfaceSystem) -> sparse.csr_matrix | Updated:
     """One sparse matrix with the ring motions as last unknowns."""
+    inner = system.interior
+    if isinstance(inner, Updated):  # coupling and interface hold all of their part of the term
+        whole = bordered(InterfaceSystem(inner.sparse, system.coupling, system.interface))
+        factors = np.vstack([inner.factors, np.zeros((INTERFACE, inner.weights.size))])
+        return Updated(whole, factors, inner.weights)
     border = sparse.csr_matrix(system.coupling)
-    return sparse.block_array(
-        [[system.interior, border], [border.T, system.interface]], format="csr"
-    )
+    return sparse.block_array([[inner, border], [border.T, system.interface]], format="csr")

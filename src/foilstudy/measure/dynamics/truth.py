@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from foilstudy.linalg import factorise
+from foilstudy.linalg import combined, factorise
 from foilstudy.measure.dynamics.damping import (
     Damping,
     ModalDamping,
@@ -68,7 +68,7 @@ def _condensed(structure: Structure, stiff: complex, heavy: complex) -> np.ndarr
     """Interface dynamic stiffness of a K + b M, the interior eliminated."""
     k, m = structure.stiffness, structure.mass
     coupling = stiff * k.coupling + heavy * m.coupling
-    inner = factorise((stiff * k.interior + heavy * m.interior).tocsr()).solve(coupling)
+    inner = factorise(combined(stiff, k.interior, heavy, m.interior)).solve(coupling)
     return stiff * k.interface + heavy * m.interface - coupling.T @ inner
 
 
@@ -125,7 +125,7 @@ class _RigidMotion:
         load -= self._mass @ (self._shapes @ self._shapes[-INTERFACE:].T)
         # the interior first, rings held: the whole is nearly singular
         coupling = k.coupling + tau**2 * m.coupling
-        inverse = factorise((k.interior + tau**2 * m.interior).tocsr())
+        inverse = factorise(combined(1.0, k.interior, tau**2, m.interior))
         solved = inverse.solve(np.hstack([coupling, load[:-INTERFACE]]))
         follow, free = solved[:, :INTERFACE], solved[:, INTERFACE:]
         rings = np.linalg.solve(

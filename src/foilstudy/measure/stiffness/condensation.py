@@ -7,7 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sparse
 
-from foilstudy.linalg import Factorisation, SolveError, SymmetricBlocks, factorise
+from foilstudy.linalg import (
+    Factorisation,
+    SolveError,
+    SymmetricBlocks,
+    Updated,
+    factorise,
+    updated,
+)
 from foilstudy.measure.stiffness.rings import Rings
 
 
@@ -15,7 +22,7 @@ from foilstudy.measure.stiffness.rings import Rings
 class InterfaceSystem:
     """A matrix of the sheet split into its interior and the twelve interface motions."""
 
-    interior: sparse.csr_matrix
+    interior: sparse.csr_matrix | Updated
     coupling: np.ndarray
     interface: np.ndarray
 
@@ -31,6 +38,32 @@ class InterfaceSystem:
             interior_rows[:, rings.interior[0] : rings.interior[-1] + 1].tocsr(),
             interior_rows[:, rings.boundary] @ rings.motion,
             rings.motion.T @ (boundary_rows[:, rings.boundary] @ rings.motion),
+        )
+
+    def plus(self, other: InterfaceSystem) -> InterfaceSystem:
+        """The sum of two systems, neither with a term of low rank."""
+        return InterfaceSystem(
+            (self.interior + other.interior).tocsr(),
+            self.coupling + other.coupling,
+            self.interface + other.interface,
+        )
+
+    def updated(
+        self, interior: np.ndarray, rings: np.ndarray, weights: np.ndarray
+    ) -> InterfaceSystem:
+        """With a term of low rank U diag(w) U^T more.
+
+        Parameters
+        ----------
+        interior, rings : ndarray, shape (interior unknowns, r) and (12, r)
+            U.
+        weights : ndarray, shape (r,)
+        """
+        weighted = rings * weights
+        return InterfaceSystem(
+            updated(self.interior, interior, weights),
+            self.coupling + interior @ weighted.T,
+            self.interface + weighted @ rings.T,
         )
 
 
@@ -56,7 +89,9 @@ class StaticCondensation:
         return f"<StaticCondensation: {len(self.constraint_modes)} interior unknowns>"
 
 
-def factorise_held(interior: sparse.csr_matrix | SymmetricBlocks) -> Factorisation:
+def factorise_held(
+    interior: sparse.csr_matrix | SymmetricBlocks | Updated,
+) -> Factorisation:
     """Factor the stiffness with held rings.
 
     Raises

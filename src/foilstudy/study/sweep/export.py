@@ -16,7 +16,7 @@ from foilstudy.base.origin import Origin
 from foilstudy.base.provenance import provenance
 from foilstudy.base.record import AGAIN, MACHINE_FAULTS, read_attributes
 from foilstudy.config import ResponseTask
-from foilstudy.config.scene import dynamics_of
+from foilstudy.config.scene import air_of, dynamics_of
 from foilstudy.export.contents import Contents
 from foilstudy.export.formats import FORMATS
 from foilstudy.export.write import write
@@ -97,7 +97,9 @@ def _contents(
         crumpled = Crumpled.of_record(values, attributes)
         for _ in range(refinements):
             crumpled = crumpled.refined()
-        return Contents.of(crumpled, dynamics_of(task.dynamics), origin | provenance())
+        return Contents.of(
+            crumpled, dynamics_of(task.dynamics), origin | provenance(), air_of(task.air)
+        )
     except Refusal as problem:
         raise Refusal(f"{crumple_path}: {problem}") from None
 

@@ -47,7 +47,9 @@ _TABLE = ("model.material_table",)
 CRUMPLE = Code(("study.sweep.crumple",), _CRUMPLING, _TABLE)
 RESPONSE = Code(("study.sweep.respond",), _MEASURING, _TABLE)
 # relaxing takes no dynamics, and its task says nothing of them
-REFINED = Code(("study.sweep.relax_refined",), _MEASURING, (*_TABLE, "measure.dynamics"))
+REFINED = Code(
+    ("study.sweep.relax_refined",), _MEASURING, (*_TABLE, "measure.air", "measure.dynamics")
+)
 # its task says `auto`, and not the size that comes of it
 CYLINDER = Code(("study.sweep.cylinder", "config.mesh"), _MEASURING, _TABLE)
 CUBE = Code(

@@ -117,6 +117,16 @@ QUANTITIES: dict[str, Declared] = {
     "dynamic_stiffness_im": Declared("N/m", "dynamic stiffness, imaginary part", _DYNAMIC),
     "eigenfrequency": Declared("Hz", "eigenfrequency, rings clamped", ("mode",)),
     "first_eigenfrequency": Declared("Hz", "first eigenfrequency, rings clamped"),
+    "vacuum_first_eigenfrequency": Declared(
+        "Hz", "first eigenfrequency without the air, rings clamped", only="in_air"
+    ),
+    "enclosed_volume": Declared(
+        "m3",
+        "volume between foil and end plates",
+        cube_units="l",
+        cube_scale=1e3,
+        only="in_air",
+    ),
     "membrane_energy": Declared("J", "membrane energy"),
     "bending_energy": Declared("J", "bending energy"),
     "stabilisation_energy": Declared("J", "stabilisation energy"),

@@ -12,14 +12,16 @@ from foilstudy.base.record import write_record
 from foilstudy.base.spec import dumped
 from foilstudy.config import ResponseTask
 from foilstudy.config.foils import foil_of
-from foilstudy.config.scene import dynamics_of
-from foilstudy.linalg import SolveError
+from foilstudy.config.scene import air_of, dynamics_of
+from foilstudy.linalg import SolveError, lowest_modes
+from foilstudy.measure.air.protocols import Air
+from foilstudy.measure.air.surface import WettedSurface
 from foilstudy.measure.dynamics import DynamicsOptions, Structure
 from foilstudy.measure.stiffness import fixed_stiffness, free_stiffness
 from foilstudy.measure.verdicts import Evidence, flags, verdicts
 from foilstudy.model.patch import Patch
 from foilstudy.pipeline.crumpled import Crumpled
-from foilstudy.pipeline.structures import stress_free_structure
+from foilstudy.pipeline.structures import in_air, stress_free_structure
 from foilstudy.pipeline.true_state import true_state
 from foilstudy.pipeline.vibration import surface_modes, vibration_of
 from foilstudy.study.sweep.origins import read_crumple, response_origin
@@ -120,10 +122,12 @@ def _measured(task: ResponseTask, crumpled: Crumpled) -> Values:
         structure = stress_free_structure(crumpled)
         values = _static(crumpled, structure, task)
     with measured() as dynamic:
-        options = dynamics_of(task.dynamics)
-        values |= _dynamic(structure, options, crumpled.patch)
+        options, air = dynamics_of(task.dynamics), air_of(task.air)
+        if task.air.kind != "none":
+            values |= _without_air(structure, crumpled)
+        values |= _dynamic(in_air(crumpled, structure, air), options, crumpled.patch)
         if crumpled.beyond_elastic:
-            values |= _true(crumpled, options)
+            values |= _true(crumpled, options, air)
     return values | {"seconds_static": static.seconds, "seconds_dynamic": dynamic.seconds}
 
 
@@ -145,10 +149,10 @@ def _static(crumpled: Crumpled, structure: Structure, task: ResponseTask) -> Val
     }
 
 
-def _true(crumpled: Crumpled, options: DynamicsOptions) -> Values:
+def _true(crumpled: Crumpled, options: DynamicsOptions, air: Air) -> Values:
     """Nothing where the tangent is singular, which the message says of the pre-stressed one."""
     try:
-        state = true_state(crumpled, options)
+        state = true_state(crumpled, options, air)
     except SolveError as error:
         print(f"no true stiffness: {error}")
         return {}
@@ -166,6 +170,16 @@ def _true(crumpled: Crumpled, options: DynamicsOptions) -> Values:
             "true_eigenfrequency": state.vibration.eigenfrequencies,
         }
     return values
+
+
+def _without_air(structure: Structure, crumpled: Crumpled) -> Values:
+    """What the numbers with air are compared with, and how much of it is enclosed."""
+    stiffness, mass = structure.stiffness.interior, structure.mass.interior
+    first = lowest_modes(stiffness, mass, structure.static.factor, 1).eigenvalues[0]
+    return {
+        "vacuum_first_eigenfrequency": float(np.sqrt(first) / (2 * np.pi)),
+        "enclosed_volume": WettedSurface(crumpled.patch, crumpled.points).volume,
+    }
 
 
 def _dynamic(structure: Structure, options: DynamicsOptions, patch: Patch) -> Values:

@@ -9,6 +9,7 @@ from foilstudy.config import StudyConfig
 SWITCHES: dict[str, Callable[[StudyConfig], bool]] = {
     "yielding": lambda study: study.material.law != "elastic",
     "beyond_elastic": lambda study: study.beyond_elastic,
+    "in_air": lambda study: study.air.kind != "none",
     "retrying": lambda study: study.method.retries > 0,
 }
 """Whether a study has the quantities whose `Declared.only` is such a name."""

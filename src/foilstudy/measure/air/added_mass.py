@@ -1,0 +1,79 @@
+"""Air that moves with the foil, and that it encloses."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import numpy as np
+import scipy.sparse as sparse
+
+from foilstudy.base.ranges import require_number
+from foilstudy.base.spec import choice_field
+from foilstudy.measure.air.enclosures import Vented
+from foilstudy.measure.air.protocols import Enclosure
+from foilstudy.measure.air.surface import WettedSurface
+from foilstudy.measure.air.waves import WAVES, AirOfWaves
+from foilstudy.measure.choices import ENCLOSURES
+from foilstudy.measure.dynamics.structure import Structure
+from foilstudy.measure.stiffness import InterfaceSystem, Rings
+
+
+@dataclass(frozen=True)
+class AddedMass:
+    """Potential flow on both sides of the developed foil, driven by its normal motion.
+
+    Attributes
+    ----------
+    density : float
+        Of the air, kg/m3.
+    enclosure : Enclosure
+    waves : int
+        Waves on the foil that are taken one by one, at most; see `AirOfWaves`.
+    """
+
+    kind: ClassVar[str] = "added_mass"
+    density: float = 1.2
+    enclosure: Enclosure = choice_field(ENCLOSURES, Vented)
+    waves: int = WAVES
+
+    def __post_init__(self):
+        require_number("density of the air", self.density, "kg/m3", least=0)
+
+    @classmethod
+    def of(cls, density: float, enclosure: Enclosure) -> AddedMass:
+        """See `Air`."""
+        return cls(density, enclosure)
+
+    def about(self, structure: Structure, surface: WettedSurface, rings: Rings) -> Structure:
+        """See `Air`.
+
+        Raises
+        ------
+        SolveError
+            If the stiffness with the enclosed air is singular.
+        """
+        if self.density > 0:
+            structure = replace(structure, mass=self._heavier(structure.mass, surface, rings))
+        stiffness = self.enclosure.stiffness(surface.volume)
+        if stiffness > 0:
+            interior, ends = surface.swept(rings)
+            stiffer = structure.stiffness.updated(
+                interior[:, None], ends[:, None], np.array([stiffness])
+            )
+            structure = Structure.assembled(stiffer, structure.mass, structure.rigid_motions)
+        return structure
+
+    def _heavier(
+        self, mass: InterfaceSystem, surface: WettedSurface, rings: Rings
+    ) -> InterfaceSystem:
+        air = AirOfWaves.of(surface.wall, self.waves)
+        flux = surface.flux
+        area = surface.wall.area / flux.shape[0]
+        local = (self.density * air.local / area) * (flux.T @ flux)
+        swept = flux.T @ air.shapes
+        return mass.plus(InterfaceSystem.split(sparse.csr_matrix(local), rings)).updated(
+            swept[rings.interior],
+            rings.motion.T @ swept[rings.boundary],
+            self.density * air.weights,
+        )
