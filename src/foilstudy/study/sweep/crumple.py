@@ -12,6 +12,8 @@ from foilstudy.base.record import write_record
 from foilstudy.config import CrumpleTask
 from foilstudy.config.foils import foil_of
 from foilstudy.config.scene import recipe_of
+from foilstudy.measure.localisation import localisation, shortening_profile
+from foilstudy.model.materials import Material
 from foilstudy.model.patch import RING_ROWS, knot_points
 from foilstudy.pipeline.crumple import crumple
 from foilstudy.pipeline.crumpled import Crumpled, described
@@ -40,7 +42,8 @@ def crumple_job(task: CrumpleTask, path: Path) -> None:
 
     def work() -> Outcome:
         crumpled = crumple(foil, recipe.mesh, recipe.imperfection, recipe.method)
-        return Outcome(crumpled.status, crumpled.message, values_of(crumpled))
+        drawn = _drawn(foil.material) if task.specimen.draws else {}
+        return Outcome(crumpled.status, crumpled.message, values_of(crumpled) | drawn)
 
     with measured() as cost:
         outcome = outcome_of(work)
@@ -48,6 +51,10 @@ def crumple_job(task: CrumpleTask, path: Path) -> None:
     attributes |= {"status": outcome.status, "message": outcome.message}
     write_record(path, quantities(values), attributes, origin)
     print(f"{outcome.status}: {outcome.message} ({cost.seconds:.1f} s)")
+
+
+def _drawn(material: Material) -> Values:
+    return {"youngs_modulus": material.youngs_modulus, "yield_stress": material.yield_stress}
 
 
 def values_of(crumpled: Crumpled) -> Values:
@@ -88,6 +95,7 @@ def _shape(crumpled: Crumpled) -> dict[str, np.ndarray]:
         "surface": surface,
         "reference_surface": reference,
         "radial_displacement": _radial_displacement(surface, reference),
+        "shortening_profile": shortening_profile(crumpled.patch, crumpled.points),
         **crumpled.problem().recorded(),
     }
 
@@ -117,4 +125,5 @@ def _numbers(crumpled: Crumpled) -> dict[str, float]:
         "radial_displacement_rms": np.sqrt(np.mean(radial**2)),
         **sensors(crumpled),
         **problem.numbers(),
+        **localisation(patch, points),
     }
