@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
+from random import Random
+
 from foilstudy.config.sections import Material as MaterialSection
+from foilstudy.config.specimen import Specimen as SpecimenSection
 from foilstudy.config.tasks import CrumpleTask, RefineTask, ResponseTask
 from foilstudy.model.foil import Foil
 from foilstudy.model.materials import Material
 from foilstudy.model.patch import Patch
+from foilstudy.model.specimen import Clamps, Seam, Specimen, Unevenness
 
 
 def material_of(section: MaterialSection) -> Material:
@@ -23,8 +29,8 @@ def material_of(section: MaterialSection) -> Material:
     )
 
 
-def foil_of(task: CrumpleTask | RefineTask | ResponseTask) -> Foil:
-    """The foil a task is about."""
+def ideal_foil_of(task: CrumpleTask | RefineTask | ResponseTask) -> Foil:
+    """The foil a task is about, were it ideal."""
     return Foil(
         diameter=task.sheet.diameter_mm * 1e-3,
         reference_height=task.reference_height_mm * 1e-3,
@@ -32,6 +38,49 @@ def foil_of(task: CrumpleTask | RefineTask | ResponseTask) -> Foil:
         thickness=task.thickness_um * 1e-6,
         material=material_of(task.material),
     )
+
+
+def foil_of(task: CrumpleTask | RefineTask | ResponseTask) -> Foil:
+    """The foil a task is about, with all in which its specimen departs from an ideal one."""
+    ideal = ideal_foil_of(task)
+    specimen = specimen_of(task.specimen, task.seed)
+    return replace(ideal, material=_drawn(ideal.material, task), specimen=specimen)
+
+
+def specimen_of(section: SpecimenSection, seed: int) -> Specimen:
+    """SI specimen of a realisation."""
+    return Specimen(
+        seam=Seam(
+            section.seam_width_mm * 1e-3,
+            section.seam_thickness_factor,
+            section.seam_modulus_factor,
+        ),
+        unevenness=Unevenness(
+            section.thickness_deviation_percent / 100,
+            section.thickness_correlation_mm * 1e-3,
+            seed,
+        ),
+        clamps=Clamps(section.ring_ellipticity_mm * 1e-3, math.radians(section.ring_tilt_deg)),
+        gravity=section.gravity_m_s2,
+    )
+
+
+def _drawn(material: Material, task: CrumpleTask | RefineTask | ResponseTask) -> Material:
+    """With the constants that are drawn for the realisation, each from its own stream."""
+    section = task.specimen
+    ranges = {
+        "youngs_modulus": section.youngs_modulus_range_mpa,
+        "yield_stress": section.yield_stress_range_mpa,
+    }
+    values = {
+        name: 1e6
+        * Random(f"{name} {task.thickness_um} {task.reference_height_mm} {task.seed}").uniform(
+            *between
+        )
+        for name, between in ranges.items()
+        if between is not None
+    }
+    return replace(material, **values)
 
 
 def patch_of(task: CrumpleTask) -> Patch:

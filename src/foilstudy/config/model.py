@@ -35,6 +35,7 @@ from .sections import (
     Sweep,
     unit_field,
 )
+from .specimen import Specimen
 from .tasks import CrumpleTask, RefineTask, ResponseTask
 
 __all__ = ["Cell", "StudyConfig", "overlength_id", "thickness_id"]
@@ -60,6 +61,8 @@ def overlength_id(reference_height_mm: float) -> str:
     return f"h{_plain(reference_height_mm)}mm"
 
 
+FROM_RINGS_OUT_OF_TRUE = ("relaxation", "installation", "ring_alone")
+"""Paths that need not begin in equilibrium."""
 STOP_MIN = 0.2
 """Least distance of the rings on the way, over the gap."""
 
@@ -116,6 +119,9 @@ class StudyConfig(Section):
     )
     material: Material = Field(
         default_factory=_default_material, description="Material of the foil."
+    )
+    specimen: Specimen = Field(
+        default_factory=Specimen, description="In what foil and clamps are not ideal."
     )
     sweep: Sweep = Field(description="Parameter grid.")
     imperfection: Imperfection = Field(
@@ -184,6 +190,7 @@ class StudyConfig(Section):
         problems += self._size_problems()
         problems += self._thickness_problems()
         problems += self._installation_problems()
+        problems += self._specimen_problems()
         problems += _duplicates("sweep.thickness_um", self.sweep.thickness_um, thickness_id)
         if self.sweep.reference_height_mm is not None:
             problems += _duplicates(
@@ -248,6 +255,36 @@ class StudyConfig(Section):
                     f"{distance:.3g} mm apart; keep them between {STOP_MIN * gap:.3g} mm and the "
                     "height of the cylinder."
                 )
+
+    def _specimen_problems(self) -> Iterator[str]:
+        around = math.pi * self.sheet.diameter_mm
+        if self.specimen.seam_width_mm >= around:
+            yield (
+                f"specimen.seam_width_mm is {self.specimen.seam_width_mm:g} mm, and the foil "
+                f"measures {around:.4g} mm around; give a seam that is narrower."
+            )
+        if not self.specimen.even and self.material.law != "elastic":
+            yield (
+                f"material.law is {self.material.law}, which knows one thickness and one modulus; "
+                "remove specimen.seam_width_mm and specimen.thickness_deviation_percent, or set "
+                "material.law: elastic."
+            )
+        if not self.specimen.even and "calculix" in self.export.formats:
+            yield (
+                "export.formats has calculix, whose deck knows one thickness and one modulus; "
+                "remove it, or specimen.seam_width_mm and specimen.thickness_deviation_percent."
+            )
+        if self.specimen.gravity_m_s2 and self.installation.waiting_hours:
+            yield (
+                "installation.waiting_hours lets stress go, and with it what carries the weight of "
+                "the foil; remove it, or specimen.gravity_m_s2."
+            )
+        if not (self.specimen.true or self.method.path in FROM_RINGS_OUT_OF_TRUE):
+            yield (
+                f"method.path is {self.method.path}, which begins between true rings; remove "
+                "specimen.ring_ellipticity_mm and specimen.ring_tilt_deg, or set method.path: "
+                "relaxation."
+            )
 
     def _size_problems(self) -> Iterator[str]:
         number = len(self.thicknesses_um) * len(self.reference_heights_mm) * len(self.seeds)
@@ -382,6 +419,7 @@ class StudyConfig(Section):
         return CrumpleTask(
             sheet=self.sheet,
             material=self.material,
+            specimen=self.specimen,
             imperfection=self.imperfection,
             mesh=self.mesh_of(cell.thickness_um),
             relaxation=self.relaxation_of(cell.thickness_um),
@@ -397,6 +435,7 @@ class StudyConfig(Section):
         return ResponseTask(
             sheet=self.sheet,
             material=self.material,
+            specimen=self.specimen,
             error_percent=self.stiffness.error_percent,
             refinements=self._refinements_of(cell),
             dynamics=self.dynamics,
@@ -419,6 +458,7 @@ class StudyConfig(Section):
         return RefineTask(
             sheet=self.sheet,
             material=self.material,
+            specimen=self.specimen,
             refinements=self.stiffness.relaxed_refinements,
             thickness_um=cell.thickness_um,
             reference_height_mm=cell.reference_height_mm,

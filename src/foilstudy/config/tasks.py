@@ -22,6 +22,7 @@ from .sections import (
     Sheet,
     Thickness,
 )
+from .specimen import Specimen
 
 __all__ = ["CrumpleTask", "RefineTask", "ResponseTask"]
 
@@ -29,6 +30,7 @@ __all__ = ["CrumpleTask", "RefineTask", "ResponseTask"]
 class _Task(Section):
     sheet: Sheet
     material: Material
+    specimen: Specimen = Field(default_factory=Specimen)
     thickness_um: Thickness
     reference_height_mm: Height
     seed: int = Field(ge=0)

@@ -38,6 +38,7 @@ class _Rings:
 
 def write(contents: Contents, path: Path) -> None:
     """Write a frequency step and one static step per direction."""
+    contents.crumple.foil.specimen.require_even("the CalculiX deck")
     grid = surface_grid(contents.crumple.points)
     rows, columns, _ = grid.shape
     last = rows * columns

@@ -35,6 +35,12 @@ def element_energies(sheet: Shell, points: np.ndarray) -> np.ndarray:
     ValueError
         If the element is not one of those that a study uses.
     """
+    parts = (Shell(part, sheet.element) for part in sheet.section.even_parts())
+    return np.sum([_even_energies(part, points) for part in parts], axis=0)
+
+
+def _even_energies(sheet: Shell, points: np.ndarray) -> np.ndarray:
+    """Of a sheet of one thickness."""
     element = sheet.element
     if isinstance(element, Corner):
         sampling = corner(element.share(sheet.section))

@@ -81,7 +81,7 @@ def _cell_fields(contents: Contents) -> dict[str, np.ndarray]:
         "membrane_strain_max": strains.membrane_max,
         "membrane_strain_min": strains.membrane_min,
         "curvature_change_1_per_m": strains.curvature,
-        "bending_strain": 0.5 * crumple.foil.thickness * strains.curvature,
+        "bending_strain": 0.5 * sheet.section.local_thickness * strains.curvature,
         "membrane_energy_J_per_m2": membrane,
         "bending_energy_J_per_m2": bending,
         "stabilisation_energy_J_per_m2": stabilisation,

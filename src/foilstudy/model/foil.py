@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from foilstudy.base.ranges import require_count, require_number
 from foilstudy.model.materials import Material, material
+from foilstudy.model.specimen import Specimen
 
 DIAMETER_MAX = 10.0
 """m; a larger one is most likely in millimetres."""
@@ -23,6 +24,8 @@ class Foil:
     thickness : float
     material : Material
         Or the name of a known one.
+    specimen : Specimen
+        In what it departs from an even foil between true rings.
     """
 
     diameter: float
@@ -30,6 +33,7 @@ class Foil:
     gap_height: float
     thickness: float
     material: Material
+    specimen: Specimen = field(default=Specimen(), repr=False)
 
     def __post_init__(self):
         for name in ("reference_height", "gap_height", "thickness"):

@@ -117,6 +117,11 @@ def uncrumpled(
     recipe = Recipe(
         mesh or Mesh.resolving(foil), imperfection or Imperfection(), method or Method()
     )
+    if not (foil.specimen.clamps.true or isinstance(recipe.method.path, RelaxationPath)):
+        raise Refusal(
+            f"the path {recipe.method.path.kind} begins in equilibrium, between true rings; use "
+            "relaxation, or leave out ellipticity and tilt."
+        )
     patch = recipe.mesh.of_ramp().patch(foil)
     reference = imperfect_cylinder(patch, foil, recipe.imperfection)
     element = recipe.mesh.element_at_work()

@@ -30,6 +30,7 @@ def lesser_cylinder(
     Refusal
         As `uncrumpled`; if there is no such model.
     """
+    foil.specimen.require_even(f"the model {model}")
     start = replace(uncrumpled(foil, mesh, imperfection, method), element=LESSER_MODELS[model]())
     if model != "mass_spring":
         return start

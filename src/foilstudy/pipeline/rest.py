@@ -10,6 +10,7 @@ import numpy as np
 from foilstudy.measure.stiffness.stress_removal import Reset
 from foilstudy.model.foil import Foil
 from foilstudy.model.patch import refine
+from foilstudy.model.shell.material.elastic import Elastic
 from foilstudy.model.shell.renewed import Renewed
 from foilstudy.model.shell.shell import Shell
 from foilstudy.pipeline.shape import Shape
@@ -69,8 +70,6 @@ class Rest:
         stiffer = fresh.section.stiffness[:, _OWN] / shape.stressed.section.stiffness[:, _OWN]
         made = shape.foil.material
         bound = replace(made, youngs_modulus=max(1.0, stiffer.max()) * made.youngs_modulus)
-        whole = Shell.elastic(
-            shape.patch, shape.reference, bound, shape.foil.thickness, shape.element
-        )
+        whole = Shell(replace(shape.stressed.section, law=Elastic(bound)), shape.element)
         renewed = Renewed(fresh, 1 - self.stress_kept)
         return Problem(left.shell, *left.terms[1:], renewed, whole=whole)

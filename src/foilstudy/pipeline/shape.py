@@ -15,6 +15,10 @@ from foilstudy.model.shell.elements.protocol import Element
 from foilstudy.model.shell.material import LAWS
 from foilstudy.model.shell.section import Section
 from foilstudy.model.shell.shell import Energies, Shell
+from foilstudy.model.specimen.clamps import clamped_shape
+from foilstudy.model.specimen.variation import variation_of
+from foilstudy.model.specimen.weight import weight_of
+from foilstudy.model.supports.loads import Loading
 from foilstudy.solve.problem import Problem
 
 
@@ -46,12 +50,19 @@ class Shape:
         """The shell as it is: stress-free before it was crumpled."""
         material = self.foil.material
         law = LAWS[material.law](material)
-        return Shell(Section(self.patch, self.reference, self.foil.thickness, law), self.element)
+        varied = variation_of(self.foil.specimen, self.patch, self.reference)
+        section = Section(self.patch, self.reference, self.foil.thickness, law, varied)
+        return Shell(section, self.element)
 
     def problem(self) -> Problem:
-        """The potential energy of the foil: its shell, and what its law adds to that."""
-        shell = self.stressed
-        return Problem(shell, *shell.section.law.terms(shell))
+        """The potential energy of the foil: its shell, what its law adds to that, its weight."""
+        shell, specimen = self.stressed, self.foil.specimen
+        terms = shell.section.law.terms(shell)
+        if specimen.gravity:
+            terms += (Loading(weight_of(shell.section, specimen.gravity)),)
+        problem = Problem(shell, *terms)
+        problem.beginning = clamped_shape(specimen.clamps, self.reference)
+        return problem
 
     def relieved(self, removal: StressRemoval | None = None) -> Relieved:
         """The shell that is stress-free in this shape."""

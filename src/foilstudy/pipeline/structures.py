@@ -104,7 +104,6 @@ def _turning_stiffness(points: np.ndarray, force: np.ndarray) -> np.ndarray:
 
 def mass(shape: Shape) -> InterfaceSystem:
     """Mass of the crumpled foil; the areal density is that of the undeformed foil."""
-    foil, patch = shape.foil, shape.patch
-    areas = shape.stressed.section.areas
-    matrix = mass_matrix(patch, foil.material.density * foil.thickness * areas)
+    patch = shape.patch
+    matrix = mass_matrix(patch, shape.stressed.section.masses)
     return InterfaceSystem.split(matrix, Rings.of(patch, shape.points))

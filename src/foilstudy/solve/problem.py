@@ -114,6 +114,9 @@ class Problem:
     Attributes
     ----------
     shell, whole : Shell
+    beginning : ndarray, shape (3, rows, columns)
+        Control points from which a motion sets out, m: the stress-free ones, unless the rings of
+        the sheet are elsewhere.
     terms : tuple of Term
     energy_names : tuple of str
         Of all terms, in their order; the first ones are the shell's.
@@ -123,6 +126,7 @@ class Problem:
 
     def __init__(self, shell: Shell, *others: Term, whole: Shell | None = None):
         self.shell, self.whole = shell, whole or shell
+        self.beginning = shell.reference
         self.terms: tuple[Term, ...] = (shell, *others)
         names = [name for term in self.terms for name in term.energy_names]
         # a second one of a name is told apart

@@ -17,6 +17,7 @@ MODULES = (
     "limits.quick",
     "limits.measured",
     "real.plan",
+    "specimen.plan",
 )
 """Modules of this package that define a ``STUDY``."""
 

@@ -31,6 +31,14 @@ def broad_wave_share(surface: np.ndarray) -> float:
     float
         Mean square of the waves 0 and 1 around over that of all; NaN of a perfect cylinder.
     """
+    return wave_share(surface, BROAD_WAVES)
+
+
+def wave_share(surface: np.ndarray, most: int) -> float:
+    """Share of the radial displacement that has at most so many waves around.
+
+    With none it is that of the axisymmetric part; see `broad_wave_share`.
+    """
     displacement, ring = _radial(surface)
     power = np.abs(np.fft.rfft(displacement, axis=1)) ** 2
     last = (
@@ -40,7 +48,7 @@ def broad_wave_share(surface: np.ndarray) -> float:
     total = power.sum()
     if not total > (_ROUNDING * ring * power.size) ** 2:
         return np.nan
-    return float(power[:, : BROAD_WAVES + 1].sum() / total)
+    return float(power[:, : most + 1].sum() / total)
 
 
 def calmer_half(surface: np.ndarray) -> float:

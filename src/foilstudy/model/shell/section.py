@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -11,6 +11,7 @@ from foilstudy.base.ranges import require_number
 from foilstudy.model.patch import Patch
 from foilstudy.model.shell.geometry import reference_geometry
 from foilstudy.model.shell.material import Law
+from foilstudy.model.shell.variation import Variation
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,8 +24,10 @@ class Section:
     reference : ndarray, shape (3, rows, columns)
         Control points of the stress-free shape, m.
     thickness : float
-        m.
+        m; of a section that varies, what its factors count from.
     law : Law
+    variation : Variation or None
+        None where thickness and modulus are the same everywhere.
 
     Raises
     ------
@@ -36,6 +39,7 @@ class Section:
     reference: np.ndarray
     thickness: float
     law: Law
+    variation: Variation | None = None
 
     def __post_init__(self) -> None:
         require_number("thickness of a shell", self.thickness, "m", above=0)
@@ -71,7 +75,42 @@ class Section:
         Shape (elements_along, 6, elements_around).
         """
         area = self.patch.size_around * self.patch.size_along
-        return area * self.law.membrane_stiffness(self.forms, self.thickness)
+        stiffness = area * self.law.membrane_stiffness(self.forms, self.thickness)
+        if self.variation is not None:
+            stiffness *= self.variation.membrane[:, None]
+        return stiffness
+
+    @property
+    def local_thickness(self) -> float | np.ndarray:
+        """Thickness, m; of shape (elements_along, elements_around) where it varies."""
+        if self.variation is None:
+            return self.thickness
+        return self.thickness * self.variation.thickness
+
+    @property
+    def thickest(self) -> float:
+        """Largest thickness, m."""
+        return float(np.max(self.local_thickness))
+
+    @property
+    def stiffest(self) -> float:
+        """Largest membrane stiffness over that of the thickness and the modulus of the foil."""
+        return 1.0 if self.variation is None else float(self.variation.membrane.max())
+
+    @property
+    def masses(self) -> np.ndarray:
+        """Of the elements, shape (elements_along, elements_around), kg."""
+        return self.law.material.density * self.local_thickness * self.areas
+
+    def even_parts(self) -> tuple[Section, ...]:
+        """Sections of one thickness each, whose energies add up to that of this one."""
+        if self.variation is None:
+            return (self,)
+        ones = np.ones_like(self.variation.thickness)
+        return tuple(
+            replace(self, thickness=factor * self.thickness, variation=Variation(ones, modulus))
+            for factor, modulus in self.variation.even_parts()
+        )
 
     @property
     def areas(self) -> np.ndarray:

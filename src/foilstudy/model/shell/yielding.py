@@ -31,9 +31,13 @@ def von_mises_stress(sheet: Shell, points: np.ndarray) -> np.ndarray:
     a11, a22, a12 = forms[:, 0], forms[:, 1], 0.5 * forms[:, 2]
     det = a11 * a22 - a12**2
     modulus = material.youngs_modulus / (1 - material.poisson_ratio**2)
+    if sheet.section.variation is not None:
+        modulus = modulus * sheet.section.variation.modulus
+    # beside the strains (along, 3, around)
+    thickness = np.broadcast_to(sheet.section.local_thickness, det.shape)[:, None]
     stress = np.zeros(det.shape)
     for face in (-0.5, 0.5):
-        strain = membrane + face * sheet.thickness * bending
+        strain = membrane + face * thickness * bending
         e11, e22, e12 = strain[:, 0], strain[:, 1], 0.5 * strain[:, 2]
         half_trace = 0.5 * (a22 * e11 + a11 * e22 - 2 * a12 * e12) / det
         determinant = (e11 * e22 - e12**2) / det

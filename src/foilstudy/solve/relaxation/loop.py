@@ -185,7 +185,7 @@ def relax(
         Never raises for a sheet that fails to converge: the status says so. Where the mass cannot
         be solved for it is ``diverged``.
     """
-    points = (problem.reference if start is None else start).copy()
+    points = (problem.beginning if start is None else start).copy()
     rows = points.shape[1]
     free = (RING_ROWS, rows - RING_ROWS)
     share = np.zeros(rows)

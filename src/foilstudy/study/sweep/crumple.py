@@ -12,6 +12,8 @@ from foilstudy.base.record import write_record
 from foilstudy.config import CrumpleTask
 from foilstudy.config.foils import foil_of
 from foilstudy.config.scene import recipe_of
+from foilstudy.measure.localisation import localisation, shortening_profile
+from foilstudy.model.materials import Material
 from foilstudy.model.patch import RING_ROWS, knot_points
 from foilstudy.pipeline.crumpled import Crumpled, described
 from foilstudy.pipeline.evidence import sensors
@@ -42,6 +44,8 @@ def crumple_job(task: CrumpleTask, path: Path) -> None:
         attempts = attempted(foil, recipe, task.method.retries)
         crumpled = attempts.crumpled
         values = values_of(crumpled)
+        if task.specimen.draws:
+            values |= _drawn(foil.material)
         if task.method.retries:
             values["attempt"] = float(attempts.number)
         return Outcome(crumpled.status, attempts.message, values, described(foil, crumpled.recipe))
@@ -52,6 +56,10 @@ def crumple_job(task: CrumpleTask, path: Path) -> None:
     attributes |= {"status": outcome.status, "message": outcome.message} | outcome.attributes
     write_record(path, quantities(values), attributes, origin)
     print(f"{outcome.status}: {outcome.message} ({cost.seconds:.1f} s)")
+
+
+def _drawn(material: Material) -> Values:
+    return {"youngs_modulus": material.youngs_modulus, "yield_stress": material.yield_stress}
 
 
 def values_of(crumpled: Crumpled) -> Values:
@@ -92,6 +100,7 @@ def _shape(crumpled: Crumpled) -> dict[str, np.ndarray]:
         "surface": surface,
         "reference_surface": reference,
         "radial_displacement": _radial_displacement(surface, reference),
+        "shortening_profile": shortening_profile(crumpled.patch, crumpled.points),
         **crumpled.problem().recorded(),
     }
 
@@ -122,4 +131,5 @@ def _numbers(crumpled: Crumpled) -> dict[str, float]:
         **sensors(crumpled),
         **problem.numbers(),
         **({"stress_kept": crumpled.stress_kept} if crumpled.beyond_elastic else {}),
+        **localisation(patch, points),
     }

@@ -8,7 +8,7 @@ import numpy as np
 
 from foilstudy.base.record import write_record
 from foilstudy.config import Cell, StudyConfig
-from foilstudy.config.foils import foil_of, patch_of
+from foilstudy.config.foils import ideal_foil_of, patch_of
 from foilstudy.linalg import SolveError
 from foilstudy.model.patch import cylinder_control_points
 from foilstudy.model.shell.elements.one_point import OnePoint
@@ -37,7 +37,7 @@ def cylinder_bounds(study: StudyConfig, path: Path) -> None:
 
 def _bound(study: StudyConfig, cell: Cell) -> np.ndarray:
     task = study.crumple_task(cell)
-    foil, patch = foil_of(task), patch_of(task)
+    foil, patch = ideal_foil_of(task), patch_of(task)
     points = cylinder_control_points(patch, foil.diameter)
     # the element that is most accurate where nothing folds
     cylinder = Shape(foil, patch, points, points, OnePoint())

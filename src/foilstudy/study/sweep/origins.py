@@ -28,6 +28,7 @@ _CRUMPLING = (
     "linalg",
     "model",
     "solve",
+    "measure.localisation",
     "measure.verdicts",
     "pipeline.crumple",
     "pipeline.crumpled",
@@ -74,7 +75,7 @@ PRESENTING = Code(
 _TEMPLATES = ("base/data", "present/report/templates")
 """What decides how a cube is shown, beside sources."""
 
-_FOIL = ("sheet", "material", "thickness_um", "reference_height_mm", "seed")
+_FOIL = ("sheet", "material", "specimen", "thickness_um", "reference_height_mm", "seed")
 """Sections of a task that name the realisation."""
 
 

@@ -157,6 +157,12 @@ QUANTITIES: dict[str, Declared] = {
         cube_units="deg",
         cube_scale=180 / np.pi,
     ),
+    "youngs_modulus": Declared(
+        "Pa", "Young's modulus drawn", cube_units="MPa", cube_scale=1e-6, only="drawing"
+    ),
+    "yield_stress": Declared(
+        "Pa", "yield stress drawn", cube_units="MPa", cube_scale=1e-6, only="drawing"
+    ),
     "beyond_yield_share": Declared("1", "share of the surface beyond the yield stress"),
     "plastic_share": Declared("1", "share of the volume that has yielded", only="yielding"),
     "plastic_strain_max": Declared("1", "largest accumulated plastic strain", only="yielding"),
@@ -169,6 +175,12 @@ QUANTITIES: dict[str, Declared] = {
     "calmer_half": Declared(
         "1", "radial displacement of the calmer half of the height over that of the other, RMS"
     ),
+    "developed_height": _length("length of the meridians of the crumple, mean around"),
+    "shortening_spread": Declared(
+        "1", "share of the height that takes part in the shortening: 1 if evenly, 0.1 if a band"
+    ),
+    "shortening_gini": Declared("1", "Gini coefficient of the shortening of ten bands of height"),
+    "axisymmetric_share": Declared("1", "share of the radial displacement that is axisymmetric"),
     "alternation": Declared("1", "opposition of the twists of neighbouring elements"),
     "hidden_energy": Declared(
         "1",
@@ -202,6 +214,9 @@ QUANTITIES: dict[str, Declared] = {
     "surface": _record_only("m", "surface points at the knots, crumpled", _NODE),
     "reference_surface": _record_only("m", "surface points at the knots, stress-free", _NODE),
     "radial_displacement": _record_only("m", "radial displacement", _NODE[1:]),
+    "shortening_profile": _record_only(
+        "m", "shortening of bands of the developed height, from the bottom ring", ("band",)
+    ),
     "plastic_strain": _record_only(
         "1",
         "plastic strains 11, 22, 2 12 of the layers in Cartesian axes, and the accumulated one",

@@ -10,6 +10,7 @@ SWITCHES: dict[str, Callable[[StudyConfig], bool]] = {
     "yielding": lambda study: study.material.law != "elastic",
     "beyond_elastic": lambda study: study.beyond_elastic,
     "in_air": lambda study: study.air.kind != "none",
+    "drawing": lambda study: bool(study.specimen.draws),
     "retrying": lambda study: study.method.retries > 0,
 }
 """Whether a study has the quantities whose `Declared.only` is such a name."""

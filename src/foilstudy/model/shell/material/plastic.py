@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sparse
 
+from foilstudy.base.errors import Refusal
 from foilstudy.model.shell.elements.mean_strains import Inelastic
 from foilstudy.model.shell.material.elastic import Elastic
 from foilstudy.model.shell.material.return_map import Flow, cartesian_frame, evolve
@@ -77,7 +78,18 @@ class Plastic(Elastic):
         )
 
     def terms(self, shell: Any) -> tuple[PlasticTerm, ...]:
-        """See `Law`: the stress that plastic strains take off."""
+        """See `Law`: the stress that plastic strains take off.
+
+        Raises
+        ------
+        Refusal
+            If thickness or modulus vary.
+        """
+        if shell.section.variation is not None:
+            raise Refusal(
+                "a plastic foil has one thickness and one modulus; leave out the seam and the "
+                "deviation of the thickness, or take an elastic foil."
+            )
         return (PlasticTerm(shell, self),)
 
 

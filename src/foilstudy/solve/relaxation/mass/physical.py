@@ -39,8 +39,7 @@ class PhysicalSheet:
 
     def __init__(self, problem: Problem):
         self._shell = problem.whole
-        section = problem.whole.section
-        self._element_masses = section.law.material.density * section.thickness * section.areas
+        self._element_masses = problem.whole.section.masses
         self.element_mass = float(self._element_masses.mean())
 
     @cached_property

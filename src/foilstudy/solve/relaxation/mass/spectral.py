@@ -87,7 +87,8 @@ class SpectralMass:
         patch, material = section.patch, section.law.material
         h1, h2 = patch.size_around, patch.size_along
         membrane = material.youngs_modulus * section.thickness / (1 - material.poisson_ratio**2)
-        bending = membrane * section.thickness**2 / 12
+        membrane *= section.stiffest
+        bending = membrane * section.thickest**2 / 12
         rows = patch.rows - 2 * RING_ROWS
         self._transform = row_transform((3, rows, patch.columns), scaling.single)
         wave = 2 * np.pi * np.arange(patch.columns // 2 + 1) / patch.columns

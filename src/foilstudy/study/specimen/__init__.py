@@ -1,0 +1,1 @@
+"""What of a real specimen and its clamps matters, and where its overlength goes."""

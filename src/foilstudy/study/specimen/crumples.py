@@ -1,0 +1,93 @@
+"""Crumples of specimens, and of foils that shorten in a part of their height."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from foilstudy.base.outcome import USABLE
+from foilstudy.linalg import SolveError
+from foilstudy.measure.localisation import localisation
+from foilstudy.model.foil import Foil, Imperfection
+from foilstudy.model.specimen import Clamps, Seam, Specimen, Unevenness
+from foilstudy.pipeline.crumple import crumple
+from foilstudy.pipeline.crumpled import Crumpled
+from foilstudy.pipeline.method import Mesh, Method
+from foilstudy.solve.paths.relaxation import RelaxationPath
+from foilstudy.solve.paths.ring_alone import RingAlonePath
+from foilstudy.study.published import GAP_HEIGHT, foil
+from foilstudy.study.specimen.plan import HEIGHT_MM, SIZE_MM, THICKNESS_UM, Scene, Shared
+
+_MESH = Mesh(SIZE_MM * 1e-3)
+_HEIGHT_SHARE = {"half": 1 / 2, "third": 1 / 3}
+
+
+def specimen_of(scene: str, seed: int) -> Specimen:
+    """The specimen of a scene."""
+    return {
+        "plain": Specimen(),
+        "seam": Specimen(seam=Seam(5e-3, 2.0)),
+        "heavy_seam": Specimen(seam=Seam(10e-3, 3.0)),
+        "uneven": Specimen(unevenness=Unevenness(0.1, 0.03, seed)),
+        "oval": Specimen(clamps=Clamps(ellipticity=2e-3)),
+        "tilt": Specimen(clamps=Clamps(tilt=np.radians(1.0))),
+        "weight": Specimen(gravity=9.81),
+    }[scene]
+
+
+def scene(case: Scene) -> dict:
+    """Crumple a specimen."""
+    sheet = foil(THICKNESS_UM, HEIGHT_MM)
+    sheet = replace(sheet, specimen=specimen_of(case.scene, case.seed))
+    return _measured(crumple(sheet, _MESH, Imperfection(seed=case.seed), Method(RelaxationPath())))
+
+
+def shared(case: Shared) -> dict:
+    """Crumple a foil, all of it or a part between clamped ends; the rest stays straight."""
+    path = RingAlonePath() if case.share == "ring_alone" else RelaxationPath()
+    sheet = shortened(case)
+    return _measured(crumple(sheet, _MESH, Imperfection(seed=case.seed), Method(path)))
+
+
+def shortened(case: Shared) -> Foil:
+    """What of the foil shortens, by as much as the whole has to."""
+    whole = foil(THICKNESS_UM, 1e3 * GAP_HEIGHT * (1 + case.overlength_percent / 100))
+    share = _HEIGHT_SHARE.get(case.share, 1.0)
+    height = share * whole.reference_height
+    return replace(
+        whole,
+        reference_height=height,
+        gap_height=height - whole.shortening,
+        material=replace(whole.material, law=case.law),
+    )
+
+
+def _measured(crumpled: Crumpled) -> dict:
+    """Stiffness, energies and localisation of a crumple, as far as it has come."""
+    arrival = crumpled.arrival
+    result = {"status": arrival.status, "message": arrival.message, "steps": arrival.steps}
+    if arrival.status not in USABLE:
+        return result
+    problem, points, force = crumpled.problem(), crumpled.points, np.empty_like(crumpled.points)
+    energies = dict(zip(problem.energy_names, problem.force(points, force), strict=True))
+    energies.pop("load", None)
+    return {
+        **result,
+        "stiffness": _stiffness(crumpled.stiffness),
+        "prestressed_stiffness": _stiffness(crumpled.prestressed_stiffness),
+        "energy": float(sum(energies.values())),
+        "membrane_energy": float(energies["membrane"]),
+        "bending_energy": float(energies["bending"]),
+        "dissipated_work": problem.numbers().get("dissipated_work", 0.0),
+        "reaction": -float(force[2, -2:].sum()),
+        **localisation(crumpled.patch, points),
+    }
+
+
+def _stiffness(measure) -> list[float]:
+    """Axial and radial, N/m; NaN where it is not defined."""
+    try:
+        return [float(value) for value in measure()]
+    except SolveError:
+        return [np.nan, np.nan]
