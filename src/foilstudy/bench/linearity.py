@@ -18,7 +18,7 @@ from foilstudy.bench.estimation.best_linear import BestLinear, best_linear, exci
 from foilstudy.bench.estimation.channels import MOTION
 from foilstudy.bench.estimation.estimate import Estimate
 from foilstudy.bench.estimation.periods import PeriodMeans
-from foilstudy.bench.transfer_level import LINEAR_DB
+from foilstudy.bench.transfer_level import LEAST_LINES, LINEAR_DB
 
 __all__ = ["APART_DB", "Driven", "LinearityCheck", "linearity"]
 
@@ -56,7 +56,7 @@ class LinearityCheck:
     Attributes
     ----------
     centres : ndarray, shape (bands,)
-        Hz; bands with a frequency that is trusted in both runs.
+        Hz; bands with at least `LEAST_LINES` frequencies that are trusted in both runs.
     apart_db : ndarray, shape (bands,)
         Level of the stronger input over that of the weaker one.
     change_db : ndarray, shape (bands,)
@@ -102,14 +102,19 @@ def linearity(weak: Driven, strong: Driven) -> LinearityCheck:
             "longer."
         )
     numbers = np.floor(10 * np.log10(frequencies[good]) + 0.5 + 1e-9).astype(int)
-    bands, at = np.unique(numbers, return_inverse=True)
-    count = np.bincount(at)
+    bands, at, count = np.unique(numbers, return_inverse=True, return_counts=True)
+    told = count >= LEAST_LINES
+    if not told.any():
+        raise Refusal(
+            f"no band holds {LEAST_LINES} frequencies that are coherent in both runs; excite more "
+            "lines."
+        )
 
     def level(power: np.ndarray) -> np.ndarray:
-        return 10 * np.log10(np.bincount(at, power[good]) / count)
+        return 10 * np.log10(np.bincount(at, power[good]) / count)[told]
 
     found = LinearityCheck(
-        10 ** (bands / 10),
+        10 ** (bands[told] / 10),
         level(strong.power) - level(weak.power),
         level(np.abs(strong.estimate.values) ** 2) - level(np.abs(weak.estimate.values) ** 2),
     )

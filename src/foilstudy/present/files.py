@@ -6,14 +6,17 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from foilstudy.base.errors import Refusal
 from foilstudy.base.record import read_attributes
 from foilstudy.config.model import overlength_id, thickness_id
-from foilstudy.present.measured import MeasuredFile
 from foilstudy.present.statistics.cells import realised
+
+if TYPE_CHECKING:
+    from foilstudy.present.measured import MeasuredFile
 
 CELL = ("thickness", "overlength", "seed")
 _UNKNOWN = "in a cube of a release before 0.4"
