@@ -84,7 +84,8 @@ def test_a_malformed_file_is_refused_with_the_place(tmp_path):
     path.write_text("foils: []\nquick: []\nmethods: [{group: mass}]\n")
     with pytest.raises(ConfigError, match=r"limits.yaml: methods.0.method: Field required"):
         read_limits(path)
-    measures = "measures: {foils: [], ways: []}"
+    measures = "measures: {foils: [], ways: []}\n"
+    measures += "bounds: {vibrating: [], quarters: [], ways: [], budget: 1}"
     path.write_text(f"foils: []\nquick: []\nmethods: [{{group: a, method: b}}]\n{measures}\n")
     with pytest.raises(ConfigError, match="none is called 'default'"):
         read_limits(path)

@@ -9,6 +9,7 @@ from foilstudy.base.errors import Refusal
 from foilstudy.base.outcome import USABLE
 from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.model.imperfections.cylinder import imperfect_cylinder
+from foilstudy.model.patch import RING_ROWS
 from foilstudy.pipeline.crumpled import Crumpled, Recipe
 from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.solve.paths import Arrival
@@ -55,7 +56,7 @@ def crumple(
         start = without_imperfection(start)
         if start.status not in USABLE:
             return start
-        way = start.points[2, -1].mean() - foil.gap_height, start.points
+        way = start.points[2, -RING_ROWS:].mean() - foil.gap_height, start.points
     if not coarsenings:
         return _at_rest(_arrived(start, path.follow(start.problem(), *way)))
     crumpled = _arrived(start, path.push(start.problem(), *way))

@@ -16,6 +16,7 @@ MODULES = (
     "limits.plan",
     "limits.quick",
     "limits.measured",
+    "limits.bounds",
     "real.plan",
     "specimen.plan",
 )

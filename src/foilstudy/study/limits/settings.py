@@ -92,6 +92,41 @@ class Measures(Section):
     ways: tuple[Way, ...] = pydantic.Field(**_List)
 
 
+class VibratingFoil(Section):
+    """A foil whose dynamics are reduced with too low a cut-off."""
+
+    thickness_um: int
+    height_mm: int
+    size_mm: float
+    cutoff_hz: float
+    seeds: int = pydantic.Field(ge=1)
+
+
+class QuarteredFoil(Section):
+    """A foil of which a quarter is followed along its equilibria."""
+
+    thickness_um: int
+    height_mm: int
+    size_mm: float
+    amplitudes_um: tuple[float, ...] = pydantic.Field(**_List)
+
+
+class FollowedWay(Section):
+    """A path by continuation, and the surface of an arc length."""
+
+    path: str
+    surface: str | None = None
+
+
+class Bounds(Section):
+    """What is reduced beyond its band, and which paths are followed on a quarter."""
+
+    vibrating: tuple[VibratingFoil, ...] = pydantic.Field(**_List)
+    quarters: tuple[QuarteredFoil, ...] = pydantic.Field(**_List)
+    ways: tuple[FollowedWay, ...] = pydantic.Field(**_List)
+    budget: int = pydantic.Field(ge=1)
+
+
 class Limits(Section):
     """All that is tried, in full and in the corner that takes minutes."""
 
@@ -99,6 +134,7 @@ class Limits(Section):
     quick: tuple[MappedFoil, ...] = pydantic.Field(**_List)
     methods: tuple[Mapped, ...] = pydantic.Field(**_List)
     measures: Measures
+    bounds: Bounds
 
 
 @dataclass(frozen=True)
