@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from foilstudy.model.foil import SMOOTH_LENGTH_MIN, Foil, Imperfection
-from foilstudy.model.random_field import SmoothField
 from foilstudy.model.patch import Patch, fitted_control_points
+from foilstudy.model.random_field import SmoothField
 
 
 def deviation(

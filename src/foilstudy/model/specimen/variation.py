@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from foilstudy.model.random_field import SmoothField
 from foilstudy.model.patch import Patch
+from foilstudy.model.random_field import SmoothField
 from foilstudy.model.shell.variation import Variation
 from foilstudy.model.specimen import CUT, Seam, Specimen, Unevenness
 
