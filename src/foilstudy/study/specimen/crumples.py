@@ -18,6 +18,7 @@ from foilstudy.solve.paths.relaxation import RelaxationPath
 from foilstudy.solve.paths.ring_alone import RingAlonePath
 from foilstudy.study.published import GAP_HEIGHT, foil
 from foilstudy.study.specimen.plan import HEIGHT_MM, SIZE_MM, THICKNESS_UM, Scene, Shared
+from foilstudy.study.specimen.release import joined
 
 _MESH = Mesh(SIZE_MM * 1e-3)
 _HEIGHT_SHARE = {"half": 1 / 2, "third": 1 / 3}
@@ -44,22 +45,35 @@ def scene(case: Scene) -> dict:
 
 
 def shared(case: Shared) -> dict:
-    """Crumple a foil, all of it or a part between clamped ends; the rest stays straight."""
+    """Crumple a foil, all of it or a band between clamped ends, and let the band go.
+
+    The rest of the foil, straight, is then joined to the band, without a clamp in between.
+    """
     path = RingAlonePath() if case.share == "ring_alone" else RelaxationPath()
-    sheet = shortened(case)
-    return _measured(crumple(sheet, _MESH, Imperfection(seed=case.seed), Method(path)))
+    whole = whole_foil(case)
+    crumpled = crumple(shortened(whole, case), _MESH, Imperfection(seed=case.seed), Method(path))
+    result = _measured(crumpled)
+    if case.share not in _HEIGHT_SHARE or crumpled.status not in USABLE:
+        return result
+    shape = joined(crumpled, whole)
+    let_go = {f"released_{name}": value for name, value in _measured(shape.settled()).items()}
+    return result | {"joined_stiffness": _stiffness(shape.stiffness)} | let_go
 
 
-def shortened(case: Shared) -> Foil:
-    """What of the foil shortens, by as much as the whole has to."""
+def whole_foil(case: Shared) -> Foil:
+    """The foil of a case, all of it."""
     whole = foil(THICKNESS_UM, 1e3 * GAP_HEIGHT * (1 + case.overlength_percent / 100))
+    return replace(whole, material=replace(whole.material, law=case.law))
+
+
+def shortened(whole: Foil, case: Shared) -> Foil:
+    """What of it shortens, by as much as the whole has to."""
     share = _HEIGHT_SHARE.get(case.share, 1.0)
     height = share * whole.reference_height
     return replace(
         whole,
         reference_height=height,
         gap_height=height - whole.shortening,
-        material=replace(whole.material, law=case.law),
     )
 
 

@@ -13,7 +13,7 @@ from foilstudy.study.specimen.plan import (
     SHARED_PERCENT,
     SHARES,
 )
-from foilstudy.study.specimen.tables import measured_stiffness, stiffness
+from foilstudy.study.specimen.tables import measured_stiffness, of_seeds, stiffness
 
 
 @style.styled
@@ -50,10 +50,9 @@ def _costs(ax, records: Records) -> None:
             means = [
                 np.mean(
                     [
-                        r.result["energy"] + r.result["dissipated_work"]
-                        for c, r in records["shared"].items()
-                        if (c.law, c.share, c.overlength_percent) == (law, share, percent)
-                        and "energy" in r.result
+                        each["energy"] + each["dissipated_work"]
+                        for each in of_seeds(records, law, share, percent)
+                        if "energy" in each
                     ]
                     or [np.nan]
                 )

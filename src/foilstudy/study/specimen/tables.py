@@ -46,25 +46,31 @@ def drawn_rows(records: Records) -> list[dict]:
 
 def shared_rows(records: Records) -> list[dict]:
     """One row per crumple whose shortening is left to a share of the height."""
-    return _rows(records["shared"])
+    released = [f"released_{name}" for name in ("status", *_NUMBERS)]
+    rows = _rows(records["shared"], (*_NUMBERS, *released))
+    for row, record in zip(rows, records["shared"].values(), strict=True):
+        for kind in ("prestressed", "joined", "released", "released_prestressed"):
+            axial, radial = stiffness(record.result, kind)
+            row |= {f"{kind}_axial": axial, f"{kind}_radial": radial}
+    return rows
 
 
-def _rows(cases: Mapping[Any, Any]) -> list[dict]:
+def _rows(cases: Mapping[Any, Any], numbers: Sequence[str] = _NUMBERS) -> list[dict]:
     return [
         {
             **vars(case),
             "status": record.result.get("status", ""),
             "axial": stiffness(record.result)[0],
             "radial": stiffness(record.result)[1],
-            **{name: record.result.get(name) for name in _NUMBERS},
+            **{name: record.result.get(name) for name in numbers},
         }
         for case, record in cases.items()
     ]
 
 
-def stiffness(result: Mapping[str, Any]) -> tuple[float, float]:
+def stiffness(result: Mapping[str, Any], kind: str = "") -> tuple[float, float]:
     """Axial and radial of what was measured, N/m; NaN where it came to nothing."""
-    values = result.get("stiffness")
+    values = result.get(f"{kind}_stiffness" if kind else "stiffness")
     return (np.nan, np.nan) if values is None else (float(values[0]), float(values[1]))
 
 
@@ -91,8 +97,9 @@ def change(values: Sequence[float], plain: Sequence[float]) -> tuple[float, floa
 
 
 def page(records: Records) -> str:
-    """Three tables for people."""
-    return "\n".join([_scenes(records), _drawn(records), _shared(records), _against(records)])
+    """Tables for people."""
+    parts = (_scenes, _against, _drawn, _shared, _released)
+    return "\n".join(part(records) for part in parts)
 
 
 def _scenes(records: Records) -> str:
@@ -144,15 +151,14 @@ def _drawn(records: Records) -> str:
 
 
 def _shared(records: Records) -> str:
-    cases = records["shared"]
     rows = []
     for law in LAWS:
         for percent in SHARED_PERCENT:
             row = [law, f"{percent:g}"]
             for share in SHARES:
-                found = [r.result for c, r in cases.items()
-                         if (c.law, c.share, c.overlength_percent) == (law, share, percent)
-                         and "energy" in r.result]  # fmt: skip
+                found = [
+                    each for each in of_seeds(records, law, share, percent) if "energy" in each
+                ]
                 if not found:
                     row.append("no equilibrium")
                     continue
@@ -185,3 +191,42 @@ def _against(records: Records) -> str:
         f"Rank correlation of the stiffness with localisation, {len(found)} crumples of all "
         "scenes:\n\n" + markdown_table(["measure", "axial", "radial"], rows)
     )
+
+
+def of_seeds(records: Records, law: str, share: str, percent: float) -> list[dict]:
+    """What was measured of all seeds."""
+    return [
+        record.result
+        for case, record in records["shared"].items()
+        if (case.law, case.share, case.overlength_percent) == (law, share, percent)
+    ]
+
+
+def _released(records: Records) -> str:
+    rows = []
+    for law in LAWS:
+        kind = "" if law == "elastic" else "prestressed"
+        for percent in SHARED_PERCENT:
+            fit = (1e-3 * measured_stiffness(name, percent) for name in ("axial", "radial"))
+            row = [law, f"{percent:g}", "{:.3g} / {:.3g}".format(*fit)]
+            for share in ("whole", "half", "third"):
+                found = of_seeds(records, law, share, percent)
+                row.append(_let_go(found, kind, share != "whole"))
+            rows.append(row)
+    heads = ["law", "overlength, %", "measured fit", "even", "half, let go", "third, let go"]
+    return (
+        "Axial / radial stiffness, kN/m, elastic without its stresses, plastic with them, and the "
+        "spread of the shortening:\n\n" + markdown_table(heads, rows)
+    )
+
+
+def _let_go(found: Sequence[Mapping[str, Any]], kind: str, released: bool) -> str:
+    """Means of the seeds that came to rest."""
+    first = "released_" if released else ""
+    at_rest = [each for each in found if f"{first}energy" in each]
+    if not at_rest:
+        return "no equilibrium"
+    kind = f"{first}{kind}".rstrip("_")
+    axial, radial = 1e-3 * np.mean([stiffness(each, kind) for each in at_rest], axis=0)
+    spread = np.mean([each[f"{first}shortening_spread"] for each in at_rest])
+    return f"{axial:.3g} / {radial:.3g}, {spread:.2f}"
