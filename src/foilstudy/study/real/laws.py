@@ -17,10 +17,10 @@ from foilstudy.study.published import GAP_HEIGHT, foil
 from foilstudy.study.real.plan import LADDER, Trial
 
 STATES = {
-    "stress-free": "static_stiffness",
-    "with its stresses": "prestressed_stiffness",
+    "stress-free": ("static_stiffness",),
+    "with its stresses": ("true_stiffness", "prestressed_stiffness"),
 }
-"""Quantities by what they are called here."""
+"""By what they are called here, quantities: the first one that there is."""
 CENTRE = 31.0, 250.0
 """Overlength (%) and thickness (um) at which levels are compared: the middle of the sweep."""
 TERMS = ("level", "overlength", "thickness")
@@ -133,11 +133,9 @@ def _measured(direction: str) -> float:
 def _laws(results: dict[Trial, dict]) -> Iterator[Law]:
     for step in LADDER.steps:
         trials = {t: r for t, r in results.items() if t.step == step.name}
-        for state, quantity in STATES.items():
+        for state, quantities in STATES.items():
             for k, direction in enumerate(DIRECTIONS):
-                values = {
-                    trial: _number(result.get(quantity), k) for trial, result in trials.items()
-                }
+                values = {trial: _number(result, quantities, k) for trial, result in trials.items()}
                 fitted = fit(values)
                 if fitted is not None:
                     level, *exponents = fitted
@@ -154,9 +152,9 @@ def _laws(results: dict[Trial, dict]) -> Iterator[Law]:
                     )
 
 
-def _number(values, k: int) -> float:
-    found = np.nan if values is None else np.asarray(values, float).ravel()[k]
-    return float(found)
+def _number(result: dict, quantities: tuple[str, ...], k: int) -> float:
+    values = next((result[name] for name in quantities if name in result), None)
+    return np.nan if values is None else float(np.asarray(values, float).ravel()[k])
 
 
 def fit(values: dict[Trial, float]) -> tuple[Known, Known, Known] | None:
