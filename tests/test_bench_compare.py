@@ -3,12 +3,14 @@
 import numpy as np
 import pytest
 import pyuff
+from matplotlib.colors import same_color
 from scipy.io import savemat
 from synthetic import FAILED, make_cube, write_cube
 
 from foilstudy.base.errors import Refusal
 from foilstudy.bench.comparison import Comparison, Configuration, frac, simulated
 from foilstudy.bench.estimation.estimate import Estimate
+from foilstudy.bench.figure import draw
 from foilstudy.bench.measured import READERS, read_response
 from foilstudy.bench.measured.conversion import UNITS, as_stiffness, unit_named
 from foilstudy.bench.measured.table import chosen
@@ -312,6 +314,20 @@ def test_values_that_are_not_coherent_do_not_count(cube):
     assert run.high_hz < 30
 
 
+def test_values_that_are_not_coherent_are_never_on_a_solid_line(cube):
+    own = simulated(cube, CASE)
+    estimate = one_of(own, 5.0)
+    estimate.coherence[:] = np.where(own.frequencies < 30, 1.0, 0.5)
+    doubtful = own.frequencies[own.frequencies >= 30]
+    for ax in draw(Comparison.of(estimate, own), "").axes:
+        lines = [line for line in ax.lines if same_color(line.get_color(), "#b2182b")]
+        dots = [line for line in lines if line.get_linestyle() == "None"]
+        (solid,) = (line for line in lines if line.get_linestyle() == "-")
+        assert np.isnan(solid.get_ydata()[own.frequencies >= 30]).all()
+        assert np.isfinite(solid.get_ydata()[own.frequencies < 30]).all()
+        assert any(np.array_equal(line.get_xdata(), doubtful) for line in dots)
+
+
 def test_without_coherence_at_low_frequencies_there_is_no_static_value(cube):
     own = simulated(cube, CASE)
     estimate = one_of(own)
@@ -370,6 +386,7 @@ def test_compare_prints_and_draws(cube, tmp_path, capsys):
     said = capsys.readouterr().out
     assert "500 um, 170 mm (30.8 %), axial transfer stiffness" in said
     assert "0 % of the values leave the band" in said and "to 1.000 with one each" in said
+    assert "60 values from 1 to 800 Hz, their coherence unknown" in said
     assert (tmp_path / "run-compared.png").stat().st_size > 10_000
     with pytest.raises(SystemExit, match="say which by --height"):
         main(["compare", str(tmp_path / "run.csv"), str(tmp_path), "--thickness", "500"])

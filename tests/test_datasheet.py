@@ -122,6 +122,13 @@ def test_realisations_that_failed_do_not_count(cube):
         link_facts(broken, 500, 170)
 
 
+def test_a_cube_of_old_lacks_what_it_lacks(cube):
+    names = ["interface_stiffness", "valid_to_frequency", "static_stiffness_converged"]
+    facts = link_facts(cube.drop_vars(names), 500, 170)
+    assert facts.motions == {} and facts.band_hz == (1, 800)
+    assert not facts.directions[0].limit.known and "not stated" in facts.directions[0].doubts[0]
+
+
 # --- the page ------------------------------------------------------------------------------------
 
 

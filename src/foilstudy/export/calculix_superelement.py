@@ -68,8 +68,9 @@ def _heading(contents: Contents) -> Iterator[str]:
         f"""
         Crumpled foil between two rigid rings as a superelement. Units: m, N, kg, s, rad.
         In the deck, before its steps: *INCLUDE, INPUT=superelement.inp, with superelement.stiff
-        and superelement.mass in the same folder. Of version 2.20 or later; *STATIC, *FREQUENCY
-        and *DYNAMIC; without damping, which a substructure cannot have.
+        and superelement.mass in the same folder. It takes a version whose manual has *MATRIX
+        ASSEMBLE (2.17 has not); *STATIC, *FREQUENCY and *DYNAMIC; without damping, which a
+        substructure cannot have.
         Ring centres: translations 1 to 3 of node {BOTTOM} (bottom) and {TOP} (top), rotations as
         degrees of freedom 1 to 3 of nodes {ROTATIONS[BOTTOM]} and {ROTATIONS[TOP]}. Tie them to
         the structure. Nodes from {INNER} on carry generalised coordinates; leave them alone. The

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Self
 
+import numpy as np
 import xarray as xr
 
 from foilstudy.base.numerals import percent, plural
@@ -76,6 +77,8 @@ def findings(comparison: Comparison) -> Iterator[tuple[str, str]]:
     low, high = measured.frequencies[[0, -1]]
     share = float((~measured.trusted).mean())
     doubt = f", {percent(share)} of them with a coherence below 0.95" if share else ""
+    if np.isnan(measured.coherence).all():
+        doubt = ", their coherence unknown"
     yield "compared", f"{plural(measured.values.size, 'value')} from {low:g} to {high:g} Hz{doubt}"
     if comparison.static is None:
         yield "static", "not measured: no value of enough coherence from 1 to 10 Hz"

@@ -188,7 +188,6 @@ def link_facts(
     counted = np.isfinite(static)
     status = cube["status"].isel(thickness=i, overlength=j).values
     names = [str(name) for name in cube["direction"].values]
-    valid = _by_seed(measured(cell, "valid_to_frequency"))[counted]
     return LinkFacts(
         float(cube["thickness"][i]),
         float(cube["reference_height"][j]),
@@ -200,9 +199,17 @@ def link_facts(
         _motions(cell),
         Value.of(_by_seed(good(cell, "first_eigenfrequency"))),
         cube["frequency"].to_numpy(),
-        float(np.min(valid[np.isfinite(valid)], initial=np.inf)),
+        _valid_to(cell, counted),
         cube[LINEAR_AMPLITUDE].attrs.get("units", "") if LINEAR_AMPLITUDE in cube else "",
     )
+
+
+def _valid_to(cell: xr.Dataset, counted: np.ndarray) -> float:
+    """Infinite where no realisation states a bound, as in cubes of old."""
+    if "valid_to_frequency" not in cell:
+        return np.inf
+    valid = _by_seed(measured(cell, "valid_to_frequency"))[counted]
+    return float(np.min(valid[np.isfinite(valid)], initial=np.inf))
 
 
 def _by_seed(values: xr.DataArray) -> np.ndarray:
@@ -247,6 +254,8 @@ def _doubts(trust: Trust, direction: str) -> Iterator[str]:
 def _motions(cell: xr.Dataset) -> dict[str, Value]:
     """Of the bottom ring; along x, y and z the transfer stiffness, too, as a motion of both rings
     alike costs nothing."""
+    if "interface_stiffness" not in cell:
+        return {}
     matrix = measured(cell, "interface_stiffness")
     return {
         name: Value.of(_by_seed(matrix.sel(interface_dof=name, interface_dof_in=name)))

@@ -121,7 +121,8 @@ def _scope(cube: xr.Dataset, facts: LinkFacts) -> str:
             f"E = {nominal(case.youngs_modulus_mpa)} MPa, ν = {nominal(case.poisson_ratio)}, "
             f"{nominal(case.density_kg_m3)} kg/m³"
         )
-    return f"{text}. Stress-free in its crumpled shape; both rings rigid; in vacuum."
+    surroundings = "" if "air" in configuration(cube) else "; in vacuum"
+    return f"{text}. Stress-free in its crumpled shape; both rings rigid{surroundings}."
 
 
 def _counted(facts: LinkFacts) -> str:
