@@ -55,7 +55,7 @@ def results(tmp_path_factory):
         folder = folder_of(results, cell)
         with pytest.MonkeyPatch.context() as patch:
             if index == DIVERGED:
-                patch.setattr(sys.modules["foilstudy.study.sweep.crumple"], "crumple", absurd)
+                patch.setattr(sys.modules["foilstudy.pipeline.retry"], "crumple", absurd)
             crumple_job(CONFIG.crumple_task(cell), folder / "crumple.nc")
             if index == CRASHED:
                 patch.setattr(

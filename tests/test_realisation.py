@@ -154,7 +154,7 @@ def test_a_fault_of_the_machine_is_no_record(tmp_path, monkeypatch):
     def explode(*_):
         raise MemoryError("no room for the history")
 
-    monkeypatch.setattr(sys.modules["foilstudy.study.sweep.crumple"], "crumple", explode)
+    monkeypatch.setattr(sys.modules["foilstudy.pipeline.retry"], "crumple", explode)
     with pytest.raises(MemoryError):
         run(study(), tmp_path)
     assert not list(tmp_path.iterdir())
@@ -164,7 +164,7 @@ def test_a_crash_while_crumpling_becomes_a_flagged_record(tmp_path, monkeypatch)
     def explode(*_):
         raise ArithmeticError("no root")
 
-    monkeypatch.setattr(sys.modules["foilstudy.study.sweep.crumple"], "crumple", explode)
+    monkeypatch.setattr(sys.modules["foilstudy.pipeline.retry"], "crumple", explode)
     records = run(study(), tmp_path)
     assert records.crumple_attributes["status"] == "failed"
     assert records.crumple_attributes["message"] == "ArithmeticError: no root"

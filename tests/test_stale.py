@@ -306,13 +306,13 @@ def test_an_edit_during_a_job_does_not_reach_its_record(tmp_path, monkeypatch):
     """The code counts as it was when the job began."""
     task, path = STUDY.crumple_task(STUDY.cells()[0]), tmp_path / "crumple.nc"
     before = origins.crumple_origin(task).code
-    true = sys.modules["foilstudy.study.sweep.crumple"].attempted
+    true = sys.modules["foilstudy.pipeline.retry"].crumple
 
     def edited(*arguments):
         monkeypatch.setattr(Code, "fingerprint", lambda code: "edited")
         return true(*arguments)
 
-    monkeypatch.setattr(sys.modules["foilstudy.study.sweep.crumple"], "attempted", edited)
+    monkeypatch.setattr(sys.modules["foilstudy.pipeline.retry"], "crumple", edited)
     crumple_job(task, path)
     assert read_record(path)[1]["code"] == before
 
