@@ -38,7 +38,7 @@ ALTERNATION_MAX = 0.5
 -0.43, those of 50 um on elements of 5 mm, which do not resolve them, up to 0.41."""
 
 HIDDEN_MAX = 0.25
-"""Energy that elements do not see (`hidden_energy`) above which they hourglass: 0.02 to 0.075 in
+"""Energy that elements do not see (`hidden_energy`) above which they hourglass: 0.01 to 0.075 in
 every crumple of the map by a sound element, resolved or not, 0.8 to 2.9 without hourglass control
 on elements of 5 and 10 mm, where a mild checkerboard hides among folds (docs/limits.md)."""
 
