@@ -9,14 +9,18 @@ from conftest import FOIL
 from test_realisation import run, study
 
 from foilstudy.linalg import SolveError
+from foilstudy.measure.verdicts import Evidence
 from foilstudy.model.foil import Imperfection
 from foilstudy.pipeline import retry
 from foilstudy.pipeline.crumpled import Crumpled, Recipe
 from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.pipeline.retry import attempted, safer
+from foilstudy.present.report.equilibrium import Equilibrium, Settling, equilibrium_findings
 from foilstudy.solve.choices import MASSES, PATHS
 from foilstudy.solve.paths.relaxation import RelaxationPath
 from foilstudy.solve.relaxation.scheme import Scheme
+from foilstudy.study.sweep.cube import has
+from foilstudy.study.sweep.quantities import QUANTITIES
 
 UNSTABLE = Scheme(mass=MASSES["spectral"](safety=0.5))
 """Beyond the stable step: it diverges in every ramp."""
@@ -83,7 +87,7 @@ def test_a_computation_that_fails_is_tried_again_and_raised_if_that_is_in_vain(m
 def test_only_what_a_safer_setting_may_cure_is_tried_again(
     verdicts, element, size, again, monkeypatch
 ):
-    evidence = replace(retry.seen_in.__globals__["Evidence"]("converged"), **verdicts)
+    evidence = Evidence("converged", **verdicts)
     monkeypatch.setattr(retry, "seen_in", lambda *_: evidence)
     arrival = SimpleNamespace(status="converged", message="", negative_eigenvalues=0)
     nothing = np.zeros(0)
@@ -112,3 +116,12 @@ def test_a_record_says_which_attempt_it_is_of(tmp_path):
     assert '"kind": "spectral"' in records.crumple_attributes["method"]
     assert "after attempt 1: " in records.response_attributes["message"]
     assert Crumpled.recorded(tmp_path / "crumple.nc").method.path.ramp_steps == 2000
+
+
+def test_the_report_counts_them_and_the_cube_has_them_only_where_asked_for():
+    found = Equilibrium(1e-8, 0, (Settling(500.0, 6, 6, 1e-9, None, None),), 6, retried=2)
+    assert "Of 2 crumples that failed as configured" in " ".join(equilibrium_findings(found))
+    none = replace(found, retried=0)
+    assert "attempt" not in " ".join(equilibrium_findings(none))
+    for retries in (0, 1):
+        assert has(study(method={"retries": retries}), QUANTITIES["attempt"]) == bool(retries)

@@ -51,15 +51,17 @@ def crumple(
     """
     start = uncrumpled(foil, mesh, imperfection, method)
     path, coarsenings = start.method.path, start.recipe.mesh.ramp_coarsenings
-    way: tuple = (foil.shortening,)
-    if start.recipe.imperfection.removed:
+    go = path.push if coarsenings else path.follow
+    if not start.recipe.imperfection.removed:
+        crumpled = _arrived(start, go(start.problem(), foil.shortening))
+    else:
         start = without_imperfection(start)
         if start.status not in USABLE:
             return start
-        way = start.points[2, -RING_ROWS:].mean() - foil.gap_height, start.points
-    if not coarsenings:
-        return _at_rest(_arrived(start, path.follow(start.problem(), *way)))
-    crumpled = _arrived(start, path.push(start.problem(), *way))
+        left = start.points[2, -RING_ROWS:].mean() - foil.gap_height
+        arrival = go(start.problem(), left, start.points)
+        arrival = replace(arrival, steps=start.arrival.steps + arrival.steps)
+        crumpled = _arrived(start, arrival)
     for finer in range(1, coarsenings + 1):
         if crumpled.status not in USABLE:
             break
@@ -97,6 +99,17 @@ def without_imperfection(start: Crumpled) -> Crumpled:
         start.patch, foil, replace(start.recipe.imperfection, amplitude=0.0)
     )
     return replace(buckled, reference=perfect)
+
+
+def refuse_removal(imperfection: Imperfection | None, what: str) -> None:
+    """See that no imperfection is to be removed where nobody would do it.
+
+    Raises
+    ------
+    Refusal
+    """
+    if imperfection and imperfection.removed:
+        raise Refusal(f"imperfection.removal: after_buckling is not for {what}; set it to never.")
 
 
 def _arrived(crumpled: Crumpled, arrival: Arrival) -> Crumpled:

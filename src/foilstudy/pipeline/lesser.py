@@ -8,7 +8,7 @@ from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.model.imperfections.cylinder import deviation
 from foilstudy.model.shell.elements import LESSER_MODELS
 from foilstudy.model.shell.elements.mass_spring import lattice_cylinder, lattice_patch
-from foilstudy.pipeline.crumple import uncrumpled
+from foilstudy.pipeline.crumple import refuse_removal, uncrumpled
 from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.method import Mesh, Method
 
@@ -48,6 +48,7 @@ def crumple_lesser(
     method: Method | None = None,
 ) -> Crumpled:
     """Push a cylinder together that one of `LESSER_MODELS` stands for; see `crumple`."""
+    refuse_removal(imperfection, "a model that is too little")
     start = lesser_cylinder(model, foil, mesh, imperfection, method)
     arrival = start.method.path.follow(start.problem(), foil.shortening)
     return replace(start, points=arrival.points, arrival=arrival)

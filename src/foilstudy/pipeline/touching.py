@@ -11,7 +11,7 @@ from foilstudy.model.contact import Contact, SelfContact
 from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.model.patch import knot_points
 from foilstudy.model.shell.intersection import self_crossing_share
-from foilstudy.pipeline.crumple import uncrumpled
+from foilstudy.pipeline.crumple import refuse_removal, uncrumpled
 from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.solve.paths import Path
@@ -87,6 +87,7 @@ def crumple_touching(
     Refusal
         As `crumple`; if the mesh is too fine for the reach, or the method cannot keep contact.
     """
+    refuse_removal(imperfection, "a foil whose parts touch")
     start = uncrumpled(foil, mesh, imperfection, method)
     if start.recipe.mesh.ramp_coarsenings:
         raise Refusal(

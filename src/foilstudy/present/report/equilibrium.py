@@ -141,9 +141,9 @@ def equilibrium_findings(equilibrium: Equilibrium) -> list[str]:
         sentences.append("No tangent with the stress left in has a negative eigenvalue.")
     if equilibrium.retried:
         sentences.append(
-            f"{plural(equilibrium.retried, 'crumple')} failed as configured and stands here as a "
-            "further attempt with safer settings left it (method.retries): the mass, the damping "
-            "and the ramp are other ones than those of the rest, as its message says."
+            f"Of {plural(equilibrium.retried, 'crumple')} that failed as configured a further "
+            "attempt with safer settings stands here (method.retries): mass, damping and ramp are "
+            "not those of the rest; the record says which."
         )
     return sentences
 

@@ -64,7 +64,7 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
     """
     wanted = wanted_cells(study, lambda cell: recorded_values(study, results, cell))
     coordinates = _coordinates(study, wanted)
-    variables = {name: q for name, q in QUANTITIES.items() if q.in_cube and _has(study, q)}
+    variables = {name: q for name, q in QUANTITIES.items() if q.in_cube and has(study, q)}
     sizes = {name: len(values) for name, (_, values, _) in coordinates.items()}
     cells = tuple(sizes[name] for name in _CELL)
     data = {
@@ -135,7 +135,7 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
     return cube
 
 
-def _has(study: StudyConfig, quantity: Declared) -> bool:
+def has(study: StudyConfig, quantity: Declared) -> bool:
     """Whether there is such a quantity where a study is configured as it is."""
     return not quantity.only or SWITCHES[quantity.only](study)
 
