@@ -34,7 +34,7 @@ from foilstudy.study.sweep.origins import (
     refuse_departure,
     response_origin,
 )
-from foilstudy.study.sweep.quantities import QUANTITIES, Declared
+from foilstudy.study.sweep.quantities import QUANTITIES
 from foilstudy.study.sweep.rounds import recorded_values, wanted_cells
 
 _CELL = ("thickness", "overlength", "seed")
@@ -63,7 +63,11 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
     """
     wanted = wanted_cells(study, lambda cell: recorded_values(study, results, cell))
     coordinates = _coordinates(study, wanted)
-    variables = {name: q for name, q in QUANTITIES.items() if q.in_cube and _there_is(q, study)}
+    variables = {
+        name: q
+        for name, q in QUANTITIES.items()
+        if q.in_cube and (not q.only or getattr(study, q.only))
+    }
     sizes = {name: len(values) for name, (_, values, _) in coordinates.items()}
     cells = tuple(sizes[name] for name in _CELL)
     data = {
@@ -132,12 +136,6 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
     cube.attrs[CONTENT] = digest_of({name: v.values for name, v in cube.variables.items()})
     _write(cube, path)
     return cube
-
-
-def _there_is(quantity: Declared, study: StudyConfig) -> bool:
-    """Whether a study has a quantity of its foils at all."""
-    yields = not quantity.yielding or study.material.law != "elastic"
-    return yields and (not quantity.beyond_elastic or study.beyond_elastic)
 
 
 def _coordinates(

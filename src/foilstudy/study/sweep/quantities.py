@@ -32,11 +32,9 @@ class Declared:
         Where the cube has another unit.
     cube_scale : float
         From the one to the other.
-    yielding : bool
-        Whether there is one only where the material law lets the foil yield.
-    beyond_elastic : bool
-        Whether there is one only where a foil is more than an elastic shell, see
-        `StudyConfig.beyond_elastic`.
+    only : str
+        Property of the study without which there is none of it: ``yields``, ``beyond_elastic`` or
+        ``lets_go``; of all studies if empty.
     """
 
     units: str
@@ -45,8 +43,7 @@ class Declared:
     in_cube: bool = True
     cube_units: str = ""
     cube_scale: float = 1.0
-    yielding: bool = False
-    beyond_elastic: bool = False
+    only: str = ""
 
 
 def _length(words: str) -> Declared:
@@ -56,7 +53,7 @@ def _length(words: str) -> Declared:
 
 def _true(units: str, words: str, dims: tuple[str, ...] = ()) -> Declared:
     """Of the foil as it stands; for an elastic one the pre-stressed stiffness says it."""
-    return Declared(units, words, dims, beyond_elastic=True)
+    return Declared(units, words, dims, only="beyond_elastic")
 
 
 def _record_only(units: str, words: str, dims: tuple[str, ...]) -> Declared:
@@ -124,9 +121,17 @@ QUANTITIES: dict[str, Declared] = {
     "bending_energy": Declared("J", "bending energy"),
     "stabilisation_energy": Declared("J", "stabilisation energy"),
     "plastic_relief_energy": Declared(
-        "J", "what plastic strains take off these three: a negative energy", yielding=True
+        "J", "what plastic strains take off these three: a negative energy", only="yields"
     ),
     "reaction_force": Declared("N", "axial force of the crumpled foil on the top ring"),
+    "free_height": Declared(
+        "m",
+        "height to which the foil sprang when its ring was let go, the last time",
+        (),
+        cube_units="mm",
+        cube_scale=1e3,
+        only="lets_go",
+    ),  # fmt: skip
     "radial_displacement_min": _length("smallest radial displacement"),
     "radial_displacement_max": _length("largest radial displacement"),
     "radial_displacement_rms": _length("root mean square radial displacement"),
@@ -148,9 +153,9 @@ QUANTITIES: dict[str, Declared] = {
         cube_scale=180 / np.pi,
     ),
     "beyond_yield_share": Declared("1", "share of the surface beyond the yield stress"),
-    "plastic_share": Declared("1", "share of the volume that has yielded", yielding=True),
-    "plastic_strain_max": Declared("1", "largest accumulated plastic strain", yielding=True),
-    "dissipated_work": Declared("J", "work that plastic flow has used up", yielding=True),
+    "plastic_share": Declared("1", "share of the volume that has yielded", only="yields"),
+    "plastic_strain_max": Declared("1", "largest accumulated plastic strain", only="yields"),
+    "dissipated_work": Declared("J", "work that plastic flow has used up", only="yields"),
     "stress_kept": _true("1", "share of the stress that waiting has left"),
     "self_crossing_share": Declared("1", "share of the surface crossed by another part"),
     "broad_wave_share": Declared(
