@@ -12,6 +12,7 @@ from foilstudy.pipeline.crumple import crumple
 from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.pipeline.one_sided import one_sided
 from foilstudy.pipeline.shakedown import shaken_down
+from foilstudy.pipeline.spring_back import sprung_back
 from foilstudy.solve.paths.minimisation import MinimisationPath
 from foilstudy.solve.paths.relaxation import RelaxationPath
 
@@ -78,3 +79,12 @@ def test_what_makes_no_sense_is_refused(virgin):
     other = replace(virgin, recipe=replace(virgin.recipe, method=Method(MinimisationPath())))
     with pytest.raises(Refusal, match="not by minimisation"):
         shaken_down(other, 1e-3)
+
+
+def test_a_foil_springs_back_to_where_nothing_holds_it(virgin):
+    free = sprung_back(virgin)
+    assert free.status == "converged"
+    assert virgin.foil.gap_height < free.height < virgin.foil.reference_height
+    assert abs(free.force_left) < 0.03
+    before, after = (each.problem().numbers()["dissipated_work"] for each in (virgin, free.foil))
+    assert after >= before

@@ -112,25 +112,50 @@ def test_uniaxial_curve(kinematic_share):
         assert (increment(tuple(strain), tuple(plastic), done, flow)[3] > 0) == flows
 
 
-def test_moment_over_curvature():
-    """A wide plate of an incompressible, perfectly plastic foil: 3/2 - 1/2 (k_y / k)^2."""
-    thickness, limit, nu = 1.0, 1e-3, 0.5
-    flow = Flow(1.0, nu, limit, 0.0, 0.0)
-    first = 2 * (2 * limit / np.sqrt(3)) * (1 - nu**2) / thickness
-    heights = layer_heights(LAYERS, thickness)
-    assert np.mean(heights**2) == pytest.approx(thickness**2 / 12, rel=1e-14)
-    frame = np.array([1.0, 0, 1, 0, 0, 1, thickness]).reshape(1, 7, 1)
-    state = np.zeros((1, LAYERS, 4, 1))
-    for ratio in np.linspace(0.01, 6, 300):
-        strain, inelastic, after = np.zeros((1, 6, 1)), np.empty((1, 6, 1)), np.empty_like(state)
-        strain[0, 3] = ratio * first
-        evolve(strain, frame, heights, flow, state, after, inelastic)
-        state = after
+class WidePlate:
+    """A strip of an incompressible, perfectly plastic foil, bent as part of a wide plate."""
+
+    def __init__(self):
+        thickness, limit, nu = 1.0, 1e-3, 0.5
+        self.flow = Flow(1.0, nu, limit, 0.0, 0.0)
+        self.first = 2 * (2 * limit / np.sqrt(3)) * (1 - nu**2) / thickness
+        self.heights = layer_heights(LAYERS, thickness)
+        self.frame = np.array([1.0, 0, 1, 0, 0, 1, thickness]).reshape(1, 7, 1)
+        self.state = np.zeros((1, LAYERS, 4, 1))
+
+    def moment(self, ratio):
+        """Over the elastic limit moment, at a curvature over that of the elastic limit."""
+        strain, inelastic = np.zeros((1, 6, 1)), np.empty((1, 6, 1))
+        before, self.state = self.state, np.empty_like(self.state)
+        strain[0, 3] = ratio * self.first
+        evolve(strain, self.frame, self.heights, self.flow, before, self.state, inelastic)
         k1, k2 = (strain - inelastic)[0, 3:5, 0]
-        moment = (k1 + nu * k2) / first
-        exact = ratio if ratio < 1 else 1.5 - 0.5 / ratio**2
+        return (k1 + self.flow.poisson_ratio * k2) / self.first
+
+
+def exact_moment(ratio):
+    return ratio if ratio < 1 else 1.5 - 0.5 / ratio**2
+
+
+def test_moment_over_curvature():
+    """3/2 - 1/2 (k_y / k)^2."""
+    plate = WidePlate()
+    assert np.mean(plate.heights**2) == pytest.approx(1 / 12, rel=1e-14)
+    for ratio in np.linspace(0.01, 6, 300):
+        moment, exact = plate.moment(ratio), exact_moment(ratio)
         assert abs(moment - exact) < 0.025
         assert ratio >= 1 or abs(moment - exact) < 1e-12  # elastic bending is exact
+
+
+@pytest.mark.parametrize("ratio", [0.9, 1.5, 4.0])
+def test_a_bent_strip_springs_back_by_its_moment(ratio):
+    """Let go, it unbends elastically: k - M(k), without flowing back."""
+    plate = WidePlate()
+    for each in np.linspace(0.0, ratio, 200):
+        plate.moment(each)
+    bent = plate.state.copy()
+    assert abs(plate.moment(ratio - exact_moment(ratio))) < 0.025
+    assert np.array_equal(plate.state, bent)
 
 
 # --- the term ------------------------------------------------------------------------------------

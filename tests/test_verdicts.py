@@ -245,7 +245,7 @@ SOUNDLY, HURRIED = {"converged"}, {"converged", "rate_dependent"}
 HISTORIES = {
     "slow ramp": (RelaxationPath(2000), SOUNDLY),
     "lumped mass, slow ramp": (RelaxationPath(2000, LUMPED), SOUNDLY),
-    "beyond the gap and back": (PATHS["installation"](2000, stages=(1.1,)), SOUNDLY),
+    "beyond the gap and back": (PATHS["installation"](2000, moves=(Move(1.1),)), SOUNDLY),
     "ramp of 60 steps": (RelaxationPath(60), HURRIED),
     "ramp of 20 steps": (RelaxationPath(20), HURRIED),
     "too small a mass": (

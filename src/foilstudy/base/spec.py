@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import json
 from dataclasses import MISSING, Field, field, fields, is_dataclass
-from typing import Any, TypeVar, get_type_hints
+from functools import partial
+from typing import Any, TypeVar, get_args, get_type_hints
 
 from foilstudy.base.errors import Refusal
 from foilstudy.base.registry import Registry
@@ -68,7 +69,9 @@ def restored(kind: type[T], content: dict[str, Any]) -> T:
         elif is_dataclass(hints[name]):
             value = restored(hints[name], value)
         elif isinstance(value, list):
-            value = tuple(value)
+            of = get_args(hints[name])[:1]  # of tuple[X, ...]
+            each = partial(restored, of[0]) if of and is_dataclass(of[0]) else lambda item: item
+            value = tuple(map(each, value))
         values[name] = value
     return kind(**values)
 

@@ -79,6 +79,8 @@ def reference_page() -> str:
             continue
         section = schema["$defs"][entry["$ref"].rpartition("/")[2]]
         parts.append(_section_table(name, section))
+        if name == "installation":
+            parts.append(_section_table("installation.moves[]", schema["$defs"]["RingMove"]))
         if name == "material":
             parts.append(_materials_table())
     parts.append(_RULES)

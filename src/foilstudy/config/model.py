@@ -11,10 +11,12 @@ from typing import Any, Literal
 from pydantic import Field, model_validator
 
 from foilstudy.base.errors import ConfigError
+from foilstudy.model.supports.moves import poses
 
 from .accuracy import ACCURACIES, STANDARD, Accuracy, completed
 from .air import Air
 from .export import Export
+from .installation import moves_of
 from .isolation import Isolation
 from .mesh import Mesh, MeshUse, mesh_problems, refinements_that_fit
 from .sections import (
@@ -63,8 +65,6 @@ def overlength_id(reference_height_mm: float) -> str:
 
 FROM_RINGS_OUT_OF_TRUE = ("relaxation", "installation", "ring_alone")
 """Paths that need not begin in equilibrium."""
-STOP_MIN = 0.2
-"""Least distance of the rings on the way, over the gap."""
 
 
 @dataclass(frozen=True)
@@ -225,16 +225,16 @@ class StudyConfig(Section):
                 )
 
     def _installation_problems(self) -> Iterator[str]:
-        stops, path = self.installation.stops_percent, self.method.path
-        if stops and path != "installation":
+        moves, path = self.installation.moves, self.method.path
+        if moves and path != "installation":
             yield (
-                f"installation.stops_percent is given, but method.path is {path}, which has no "
-                "stops; set method.path: installation, or remove them."
+                f"installation.moves is given, but method.path is {path}, which has no moves; set "
+                "method.path: installation, or remove them."
             )
-        elif path == "installation" and not stops:
+        elif path == "installation" and not moves:
             yield (
-                "method.path is installation, but installation.stops_percent is not given; give "
-                "stops such as [125], or remove method.path."
+                "method.path is installation, but installation.moves is not given; give moves such "
+                "as [{shorten_percent: 125}], or remove method.path."
             )
         waits, relaxes = self.installation.waiting_hours, self.material.relaxation_per_decade
         if bool(waits) != bool(relaxes):
@@ -242,19 +242,15 @@ class StudyConfig(Section):
             if relaxes:
                 given, missing = missing, given
             yield f"{given} is given, but without {missing} nothing relaxes; give both, or neither."
-        gap = self.sheet.gap_height_mm
-        for i, percent in enumerate(stops):
-            distances = [
-                height - percent / 100 * (height - gap) for height in self.reference_heights_mm
-            ]
-            lowest, highest = min(distances), max(distances)
-            if lowest < STOP_MIN * gap or percent < 0:
-                distance = highest if percent < 0 else lowest
-                yield (
-                    f"installation.stops_percent[{i}] is {percent:g} %, with rings "
-                    f"{distance:.3g} mm apart; keep them between {STOP_MIN * gap:.3g} mm and the "
-                    "height of the cylinder."
-                )
+        radius, gap = self.sheet.diameter_mm / 2e3, self.sheet.gap_height_mm / 1e3
+        wrong: dict[int, str] = {}
+        for height in self.reference_heights_mm:
+            for number, pose in poses(moves_of(self.installation)):
+                if pose and number not in wrong:
+                    wrong[number] = pose.beyond(radius, height / 1e3, gap)
+        for number, reason in wrong.items():
+            if reason:
+                yield f"installation.moves[{number}] {reason}."
 
     def _specimen_problems(self) -> Iterator[str]:
         around = math.pi * self.sheet.diameter_mm
@@ -372,7 +368,17 @@ class StudyConfig(Section):
 
         Then their true stiffness is measured; of elastic ones the pre-stressed one is that.
         """
-        return self.material.law != "elastic" or self.installation.waiting_hours > 0
+        return self.yields or self.installation.waiting_hours > 0
+
+    @property
+    def yields(self) -> bool:
+        """Whether its material may yield."""
+        return self.material.law != "elastic"
+
+    @property
+    def lets_go(self) -> bool:
+        """Whether a ring is let go as the foil is fitted."""
+        return any(move.release for move in self.installation.moves)
 
     def with_fewest(self) -> StudyConfig:
         """The same study with a fixed number of realisations, those of the first round."""

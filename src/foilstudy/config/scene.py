@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from foilstudy.config.air import Air as AirSection
+from foilstudy.config.installation import moves_of
 from foilstudy.config.mesh import Mesh as MeshSection
 from foilstudy.config.sections import Dynamics
 from foilstudy.config.tasks import CrumpleTask
@@ -52,9 +53,8 @@ def method_of(task: CrumpleTask) -> Method:
         settling,
         relaxation.check_interval,
     )
-    if task.installation.stops_percent:
-        stages = tuple(each / 100 for each in task.installation.stops_percent)
-        path = replace(path, stages=stages)
+    if task.installation.moves:
+        path = replace(path, moves=moves_of(task.installation))
     removal = STRESS_REMOVALS[method.stress_removal]()
     return Method(path, removal, 3600 * task.installation.waiting_hours)
 

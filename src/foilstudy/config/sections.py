@@ -337,14 +337,65 @@ class Imperfection(Section):
         return self
 
 
-class Installation(Section):
-    """How the foil is fitted: where the top ring stops before it comes to the gap."""
+class RingMove(Section):
+    """One move of the top ring: what is not named stays as it is."""
 
-    stops_percent: tuple[float, ...] = unit_field(
+    shorten_percent: float | None = unit_field(
         "% of the shortening",
-        "Stops of the top ring before the gap, in turn, in per cent of the way that closes it: "
-        "`[125]` pushes a quarter further and pulls back, `[100, 105, 95]` cycles about the gap. "
-        "The foil comes near to rest at each. Needs `method.path: installation`.",
+        "Where the ring goes, in per cent of the way that closes the gap: `125` is a quarter "
+        "further, `0` pulls the foil straight.",
+        None,
+        ge=-1000,
+        le=1000,
+    )
+    tilt_mrad: float | None = unit_field(
+        "mrad", "Tilt of the ring about an axis across it.", None, ge=-500, le=500
+    )
+    twist_mrad: float | None = unit_field(
+        "mrad", "Turn of the ring about its own axis.", None, ge=-1000, le=1000
+    )
+    shift_mm: float | None = unit_field(
+        "mm", "Shift of the ring across the axis of the foil.", None, ge=-10_000, le=10_000
+    )
+    cycles: int = unit_field(
+        "1",
+        "How often the ring goes there and back to where it was; with 0 it goes there and stays.",
+        0,
+        ge=0,
+        le=100,
+    )
+    release: bool = unit_field(
+        "truth value",
+        "Lets go of the ring instead, which springs along the axis to the free height of the foil.",
+        False,
+    )
+
+    @model_validator(mode="after")
+    def _says_one_thing(self) -> RingMove:
+        places = (self.shorten_percent, self.tilt_mrad, self.twist_mrad, self.shift_mm)
+        goes = any(place is not None for place in places)
+        if self.release and (goes or self.cycles):
+            raise ValueError(
+                "installation.moves has a move with release: true and a place beside it; write two "
+                "moves."
+            )
+        if not (goes or self.release):
+            raise ValueError(
+                "installation.moves has a move without a place; give it one, such as "
+                "{shorten_percent: 125}, or {release: true}."
+            )
+        return self
+
+
+class Installation(Section):
+    """How the foil is fitted: what the top ring does before it comes to the gap."""
+
+    moves: tuple[RingMove, ...] = unit_field(
+        "list",
+        "Moves of the top ring before it comes to the gap and stands straight, in turn, each a "
+        "mapping of the keys below: `[{shorten_percent: 125}]` pushes a quarter further and pulls "
+        "back, `[{shorten_percent: 100}, {shorten_percent: 105, cycles: 3}]` cycles. The foil "
+        "comes near to rest after each. Needs `method.path: installation`.",
         (),
         max_length=50,
         strict=False,
@@ -357,6 +408,16 @@ class Installation(Section):
         ge=0,
         le=1e7,
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _stops_are_moves(cls, data: Any) -> Any:
+        if isinstance(data, Mapping) and "stops_percent" in data:
+            raise ValueError(
+                "installation.stops_percent is now a list of moves; write installation.moves: "
+                "[{shorten_percent: 125}] for a stop at 125 %."
+            )
+        return data
 
 
 class Relaxation(Section):

@@ -6,9 +6,9 @@ import re
 from collections.abc import Callable, Mapping
 from difflib import get_close_matches
 from functools import partial
-from typing import Any
+from typing import Any, get_args
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
 from foilstudy.base.registry import did_you_mean
@@ -51,6 +51,8 @@ def _sentence(kind: str, loc: tuple[str | int, ...], value: Any, ctx: dict[str, 
     if kind == "missing":
         remedy = f"give at least {MINIMAL}" if loc == ("sweep",) else f"add it ({_meaning(field)})"
         return f"{path} is missing; {remedy}."
+    if kind == "bool_type":
+        return f"{path} is {describe(value)}, not a truth value; write true or false."
     if kind == "model_type":
         keys = ", ".join(_keys(loc))
         if value is None:
@@ -107,8 +109,18 @@ def _path(loc: tuple[str | int, ...]) -> str:
 
 
 def _keys(loc: tuple[str | int, ...]) -> list[str]:
-    model = StudyConfig.sections()[str(loc[0])] if loc else StudyConfig
-    return list(model.model_fields)
+    if not loc:
+        return list(StudyConfig.model_fields)
+    model = StudyConfig.sections()[str(loc[0])]
+    return list((_item(model, loc) or model).model_fields)
+
+
+def _item(model: type[BaseModel], loc: tuple[str | int, ...]) -> type[BaseModel] | None:
+    """Model of the mappings in the list that a path leads into, as of `installation.moves[0]`."""
+    field = model.model_fields.get(str(loc[1])) if len(loc) > 2 else None
+    of = get_args(field.annotation)[:1] if field else ()
+    inside = bool(of) and isinstance(of[0], type) and issubclass(of[0], BaseModel)
+    return of[0] if inside else None
 
 
 def _unknown_key(loc: tuple[str | int, ...]) -> str:
@@ -136,6 +148,8 @@ def _field(loc: tuple[str | int, ...]) -> FieldInfo | None:
     model = StudyConfig.sections().get(str(loc[0]))
     if len(loc) == 1 or model is None:
         return StudyConfig.model_fields.get(str(loc[0]))
+    if (item := _item(model, loc)) and len(loc) > 3:
+        return item.model_fields.get(str(loc[3]))
     return model.model_fields.get(str(loc[1]))
 
 

@@ -13,6 +13,7 @@ from foilstudy.model.patch import RING_ROWS
 from foilstudy.pipeline.crumpled import Crumpled, Recipe
 from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.solve.paths import Arrival
+from foilstudy.solve.paths.installation import InstallationPath
 from foilstudy.solve.paths.relaxation import RelaxationPath
 
 _BUCKLED = 2.0
@@ -85,7 +86,8 @@ def without_imperfection(start: Crumpled) -> Crumpled:
         If the path does not move, or the material has a memory, which belongs to its first shape.
     """
     foil, path = start.foil, start.method.path
-    if not isinstance(path, RelaxationPath) or start.problem().has_memory:
+    moves = isinstance(path, RelaxationPath) and not isinstance(path, InstallationPath)
+    if not moves or start.problem().has_memory:
         raise Refusal(
             "imperfection.removal: after_buckling needs a foil that is elastic and relaxed; set "
             "method.path: relaxation and material.law: elastic, or leave it out."

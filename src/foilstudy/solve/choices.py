@@ -103,7 +103,7 @@ PATHS = Registry(
         ),
         "installation": Choice(
             "solve.paths.installation:InstallationPath",
-            "the same by the stops of `installation`, as a foil is fitted",
+            "the same by the moves of `installation`, as a foil is fitted",
         ),
         "newton": Choice(
             "solve.paths.newton:NewtonPath",

@@ -43,6 +43,8 @@ class Arrival:
         Share of the shortening that the path has come to.
     budget_spent : bool
         Whether it ended there for want of factorisations.
+    free_heights : tuple of float
+        Heights to which the ring sprang each time that it was let go on the way, m.
     """
 
     status: str
@@ -58,6 +60,7 @@ class Arrival:
     state: tuple[Any, ...] = ()
     reached: float = 1.0
     budget_spent: bool = False
+    free_heights: tuple[float, ...] = ()
 
     def after(self, earlier: Arrival) -> Arrival:
         """The same with the work and the history of what came before, on a coarser mesh say."""

@@ -12,6 +12,7 @@ from foilstudy.model.patch import RING_ROWS
 from foilstudy.solve.problem import Problem
 from foilstudy.solve.relaxation.damping import Halt
 from foilstudy.solve.relaxation.scheme import Motion
+from foilstudy.solve.relaxation.turning import Turning
 from foilstudy.solve.residual import relative_residual
 
 
@@ -29,16 +30,27 @@ class Ramp:
     spread : bool
         Whether each increment is spread over the height, so that the sheet does not lag behind at
         the moving ring; without, the ring moves alone.
+    turning : Turning or None
+        What the ring does on the way beside that.
     """
 
     shortening: float
     steps: int
     spread: bool = True
+    turning: Turning | None = None
 
     def shortening_at(self, step: int) -> float:
         """Quintic ramp 10 tau^3 - 15 tau^4 + 6 tau^5: no velocity or acceleration at its ends."""
-        tau = min(step / self.steps, 1.0) if self.steps else 1.0
+        tau = self._time(step)
         return self.shortening * tau**3 * (10 + tau * (-15 + 6 * tau))
+
+    def progress_at(self, step: int) -> float:
+        """The same of a way of 1."""
+        tau = self._time(step)
+        return tau**3 * (10 + tau * (-15 + 6 * tau))
+
+    def _time(self, step: int) -> float:
+        return min(step / self.steps, 1.0) if self.steps else 1.0
 
 
 @dataclass(frozen=True)
@@ -197,6 +209,7 @@ def relax(
         )
         share = np.clip(points[2].mean(axis=1) / height, 0.0, 1.0)
     share[:RING_ROWS], share[-RING_ROWS:] = 0.0, 1.0
+    turned = ramp.turning.begun(points, share) if ramp.turning else None
     force = np.empty_like(points)
     momentum = np.zeros((3, free[1] - free[0], points.shape[2]))
     velocity = np.zeros_like(momentum)
@@ -239,6 +252,8 @@ def relax(
         step += 1
         lowering = ramp.shortening_at(step) - ramp.shortening_at(step - 1)
         _move(points, velocity, share, lowering, *free)
+        if turned and step <= ramp.steps:
+            turned.move(points, ramp.progress_at(step - 1), ramp.progress_at(step))
         if problem.has_memory:
             problem.commit(points)
     return recorder.result(status, step, points, rule, failure)

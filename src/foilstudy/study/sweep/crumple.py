@@ -129,6 +129,7 @@ def _numbers(crumpled: Crumpled) -> dict[str, float]:
         "radial_displacement_max": radial.max(),
         "radial_displacement_rms": np.sqrt(np.mean(radial**2)),
         **sensors(crumpled),
+        **({"free_height": arrival.free_heights[-1]} if arrival.free_heights else {}),
         **problem.numbers(),
         **({"stress_kept": crumpled.stress_kept} if crumpled.beyond_elastic else {}),
         **localisation(patch, points),

@@ -24,6 +24,7 @@ from foilstudy.export.formats import FORMATS
 
 _CRUMPLING = (
     "config.foils",
+    "config.installation",
     "config.scene",
     "linalg",
     "model",

@@ -134,6 +134,14 @@ QUANTITIES: dict[str, Declared] = {
         "J", "what plastic strains take off these three: a negative energy", only="yielding"
     ),
     "reaction_force": Declared("N", "axial force of the crumpled foil on the top ring"),
+    "free_height": Declared(
+        "m",
+        "height to which the foil sprang when its ring was let go, the last time",
+        (),
+        cube_units="mm",
+        cube_scale=1e3,
+        only="lets_go",
+    ),  # fmt: skip
     "radial_displacement_min": _length("smallest radial displacement"),
     "radial_displacement_max": _length("largest radial displacement"),
     "radial_displacement_rms": _length("root mean square radial displacement"),

@@ -7,10 +7,11 @@ from collections.abc import Callable
 from foilstudy.config import StudyConfig
 
 SWITCHES: dict[str, Callable[[StudyConfig], bool]] = {
-    "yielding": lambda study: study.material.law != "elastic",
+    "yielding": lambda study: study.yields,
     "beyond_elastic": lambda study: study.beyond_elastic,
     "in_air": lambda study: study.air.kind != "none",
     "drawing": lambda study: bool(study.specimen.draws),
+    "lets_go": lambda study: study.lets_go,
     "retrying": lambda study: study.method.retries > 0,
 }
 """Whether a study has the quantities whose `Declared.only` is such a name."""
