@@ -7,6 +7,7 @@ import pytest
 import scipy.sparse as sparse
 from scipy.linalg import eigh
 from scipy.special import jn_zeros, jv
+from small_study import sections_with
 
 from foilstudy.base.errors import ConfigError, Refusal
 from foilstudy.config.load import load_config
@@ -34,6 +35,12 @@ from foilstudy.pipeline.method import Mesh
 from foilstudy.pipeline.shape import Shape
 from foilstudy.pipeline.structures import in_air, stress_free_structure
 from foilstudy.study.published import foil
+from foilstudy.study.sweep.crumple import crumple_job
+from foilstudy.study.sweep.cube import gather
+from foilstudy.study.sweep.cylinder import cylinder_bounds
+from foilstudy.study.sweep.export import contents_of
+from foilstudy.study.sweep.origins import cell_folder
+from foilstudy.study.sweep.respond import respond_job
 
 OPTIONS = DynamicsOptions(highest_hz=120.0, frequencies=12, eigenfrequencies=4, mode_shapes=1)
 SEALED = AddedMass(1.2, SealedIsothermal())
@@ -431,3 +438,33 @@ def test_the_crumpled_surface_has_about_the_air_of_the_cylinder(rough, structure
         for kind in (AddedMass, TrueSurface)
     ]  # fmt: skip
     assert first[0] == pytest.approx(first[1], rel=0.1)
+
+
+# a study
+
+
+def test_a_study_in_air(tmp_path):
+    changes = {
+        "sweep": {"thickness_um": [100], "reference_height_mm": [143], "realisations": 1},
+        "air": {"kind": "added_mass", "enclosed": "sealed_adiabatic"},
+    }
+    study = load_config(sections_with(**changes))
+    (cell,) = study.cells()
+    place = cell_folder(tmp_path, cell)
+    crumple_job(study.crumple_task(cell), place / "crumple.nc")
+    task = study.response_task(cell)
+    respond_job(task, place / "crumple.nc", place / "response.nc")
+    cylinder_bounds(study, tmp_path / "cylinder.nc")
+    cube = gather(study, tmp_path, tmp_path / "cube.nc").isel(thickness=0, overlength=0, seed=0)
+    assert cube.status.item() == "converged"
+    ratio = cube.first_eigenfrequency.item() / cube.vacuum_first_eigenfrequency.item()
+    assert 0.8 < ratio < 0.99
+    assert cube.enclosed_volume.units == "l"
+    assert cube.enclosed_volume.item() == pytest.approx(np.pi * 1.3, rel=0.1)
+    # the static stiffness is the foil's; what the enclosed air adds shows at the lowest frequency
+    low = cube.dynamic_stiffness_re.sel(direction="axial", definition="relative")[0].item()
+    assert low > cube.static_stiffness.sel(direction="axial").item() + 1e3
+    model = contents_of(task, place / "crumple.nc").model
+    assert model.clamped_eigenfrequencies()[0] == pytest.approx(
+        cube.first_eigenfrequency.item(), rel=1e-3
+    )

@@ -10,8 +10,8 @@ import scipy.sparse as sparse
 
 from foilstudy.base.ranges import require_number
 from foilstudy.base.spec import choice_field
-from foilstudy.measure.air.enclosures import Vented
 from foilstudy.measure.air.cylinder import cylinder_thickness
+from foilstudy.measure.air.enclosures import Vented
 from foilstudy.measure.air.protocols import Enclosure
 from foilstudy.measure.air.surface import WettedSurface
 from foilstudy.measure.air.waves import WAVES, AirOfWaves, Waves
