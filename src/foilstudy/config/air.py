@@ -34,4 +34,9 @@ class Air(Section):
                 f"air.enclosed is {self.enclosed}, but air.kind is none, so there is no air to "
                 "enclose; set air.kind: added_mass, or remove air.enclosed."
             )
+        if self.kind == "added_mass_true_surface" and self.enclosed != "vented":
+            raise ValueError(
+                f"air.enclosed is {self.enclosed}, but air.kind is added_mass_true_surface, whose "
+                "ends are open; set air.kind: added_mass, or remove air.enclosed."
+            )
         return self

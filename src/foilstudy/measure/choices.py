@@ -61,7 +61,11 @@ AIRS = Registry(
         "none": Choice("measure.air.vacuum:Vacuum", "vacuum"),
         "added_mass": Choice(
             "measure.air.added_mass:AddedMass",
-            "air moves with the foil on both sides, without friction",
+            "air moves with the foil on both sides, without friction, as about a cylinder",
+        ),
+        "added_mass_true_surface": Choice(
+            "measure.air.true_surface:TrueSurface",
+            "as about the crumpled surface, between open ends; for at most 6 000 elements",
         ),
     },
 )

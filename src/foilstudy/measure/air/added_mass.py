@@ -10,10 +10,11 @@ import scipy.sparse as sparse
 
 from foilstudy.base.ranges import require_number
 from foilstudy.base.spec import choice_field
+from foilstudy.measure.air.cylinder import cylinder_thickness
 from foilstudy.measure.air.enclosures import Vented
 from foilstudy.measure.air.protocols import Enclosure
 from foilstudy.measure.air.surface import WettedSurface
-from foilstudy.measure.air.waves import WAVES, AirOfWaves
+from foilstudy.measure.air.waves import WAVES, AirOfWaves, Waves
 from foilstudy.measure.choices import ENCLOSURES
 from foilstudy.measure.dynamics.structure import Structure
 from foilstudy.measure.stiffness import InterfaceSystem, Rings
@@ -21,7 +22,7 @@ from foilstudy.measure.stiffness import InterfaceSystem, Rings
 
 @dataclass(frozen=True)
 class AddedMass:
-    """Potential flow on both sides of the developed foil, driven by its normal motion.
+    """Potential flow about the developed foil, a cylinder, driven by the foil's normal motion.
 
     Attributes
     ----------
@@ -29,7 +30,7 @@ class AddedMass:
         Of the air, kg/m3.
     enclosure : Enclosure
     waves : int
-        Waves on the foil that are taken one by one, at most; see `AirOfWaves`.
+        Waves on the foil that are taken one by one, about; see `AirOfWaves`.
     """
 
     kind: ClassVar[str] = "added_mass"
@@ -64,10 +65,15 @@ class AddedMass:
             structure = Structure.assembled(stiffer, structure.mass, structure.rigid_motions)
         return structure
 
+    def thickness(self, waves: Waves, surface: WettedSurface) -> np.ndarray:
+        """Of the air that moves with waves of the foil, for means over elements, (r, r), m."""
+        return cylinder_thickness(waves)
+
     def _heavier(
         self, mass: InterfaceSystem, surface: WettedSurface, rings: Rings
     ) -> InterfaceSystem:
-        air = AirOfWaves.of(surface.wall, self.waves)
+        waves = Waves.on(surface.wall, self.waves)
+        air = AirOfWaves.of(waves, self.thickness(waves, surface))
         flux = surface.flux
         area = surface.wall.area / flux.shape[0]
         local = (self.density * air.local / area) * (flux.T @ flux)

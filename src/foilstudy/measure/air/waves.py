@@ -1,9 +1,4 @@
-"""The added mass of a cylindrical wall of finite length in the waves that it can carry.
-
-Inside, the wall ends at two rigid plates, so that cosines along the wall and waves around are the
-eigenfunctions of the added mass. Outside, it goes on as a rigid cylinder (a baffle), and waves
-along it couple. The sum is a matrix in the cosines for each number of waves around.
-"""
+"""The waves that a developed foil can carry, and operators on them."""
 
 from __future__ import annotations
 
@@ -11,17 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foilstudy.measure.air.potential import inside, outside
-
 WAVES = 250
 """Waves on the wall that are taken one by one, about: on a cylinder of 0.2 m and 0.17 m those
 longer than 37 mm. Four times as many change the first eigenfrequency of 50 um by 0.03 %."""
 _ELEMENTS = 4
 """Elements in a wave, at least."""
-_REACH, _NODES, _SPLITS = 12, 8, 14
-"""Of the integral over waves along the baffled wall: its end over the largest wave number taken,
-nodes a panel of pi / length, and halvings of the first panel, where the integrand has a
-logarithm."""
 
 
 @dataclass(frozen=True)
@@ -53,6 +42,59 @@ class Wall:
 
 
 @dataclass(frozen=True, eq=False)
+class Waves:
+    """Cosines along a wall, and cosines and sines around it: orthonormal.
+
+    Attributes
+    ----------
+    wall : Wall
+    limit : float
+        Largest wave number, 1/m.
+    n, m : ndarray of int, shape (r,)
+        Waves around and half waves along.
+    sine : ndarray of bool, shape (r,)
+        Which of the two around.
+    """
+
+    wall: Wall
+    limit: float
+    n: np.ndarray
+    m: np.ndarray
+    sine: np.ndarray
+
+    @classmethod
+    def on(cls, wall: Wall, most: int = WAVES) -> Waves:
+        """All up to a wave number."""
+        limit = wall.shortest(most)
+        n, m = np.meshgrid(
+            np.arange(int(limit * wall.radius) + 1),
+            np.arange(int(limit * wall.length / np.pi) + 1),
+            indexing="ij",
+        )
+        within = np.hypot(n / wall.radius, np.pi * m / wall.length) <= limit
+        n, m = n[within], m[within]
+        sine = np.repeat([False, True], [n.size, (n > 0).sum()])
+        return cls(wall, limit, np.append(n, n[n > 0]), np.append(m, m[n > 0]), sine)
+
+    @property
+    def shapes(self) -> np.ndarray:
+        """At the centres of the elements, of unit mean square over the area, 1/m."""
+        wall = self.wall
+        angle = 2 * np.pi * (np.arange(wall.around) + 1) / wall.around
+        height = np.pi * (np.arange(wall.along) + 0.5) / wall.along
+        turn = np.where(self.sine, np.pi / 2, 0.0)
+        around = np.cos(np.outer(angle, self.n) - turn) * np.sqrt(np.where(self.n, 2.0, 1.0))
+        along = np.cos(np.outer(height, self.m)) * np.sqrt(np.where(self.m, 2.0, 1.0))
+        both = along[:, None] * around[None] / np.sqrt(wall.area)
+        return both.reshape(-1, self.n.size)
+
+    @property
+    def mean(self) -> np.ndarray:
+        """Mean of a wave over an element, over its value in the middle."""
+        return np.sinc(self.n / self.wall.around) * np.sinc(0.5 * self.m / self.wall.along)
+
+
+@dataclass(frozen=True, eq=False)
 class AirOfWaves:
     """Thickness of air that moves with a wall, an operator: local + U diag(w) U^T.
 
@@ -60,10 +102,10 @@ class AirOfWaves:
     ----------
     local : float
         That of all waves shorter than those taken, m.
-    shapes : ndarray, shape (elements along * around, r)
+    shapes : ndarray, shape (elements, r)
         U: of unit mean square over the wall, 1/m, at the centres of the elements.
     weights : ndarray, shape (r,)
-        What longer waves have more, m, positive.
+        What longer waves have more, m.
     """
 
     local: float
@@ -74,55 +116,13 @@ class AirOfWaves:
         return f"<AirOfWaves: {self.weights.size} waves, {1e3 * self.local:.2g} mm beyond them>"
 
     @classmethod
-    def of(cls, wall: Wall, most: int = WAVES) -> AirOfWaves:
-        """Of both sides of a wall.
+    def of(cls, waves: Waves, thickness: np.ndarray) -> AirOfWaves:
+        """With a matrix between waves, m, that acts on means over elements.
 
-        Waves beyond those taken are given the plane wall's 2 / k, averaged up to twice the wave
-        number at which they begin.
+        Waves beyond those taken are given 2 / k, that of a plane wall, averaged up to twice the
+        wave number at which they begin.
         """
-        limit = wall.shortest(most)
-        local = 2 * np.log(2) / limit
-        angle = 2 * np.pi * (np.arange(wall.around) + 1) / wall.around
-        height = (np.arange(wall.along) + 0.5) / wall.along
-        shapes, weights = [], []
-        for n in range(int(limit * wall.radius) + 1):
-            rest = np.sqrt(max(limit**2 - (n / wall.radius) ** 2, 0.0))
-            m = np.arange(int(rest * wall.length / np.pi) + 1)
-            q = np.pi * m / wall.length
-            thickness = _outside(n, m, wall, limit)
-            within = (n > 0) | (m > 0)  # the mean flow leaves by the vent, or is compressed
-            thickness[m[within], m[within]] += inside(n, q[within], wall.radius)
-            # the mean of a wave over an element is less than its value in the middle
-            mean = np.sinc(n / wall.around) * np.sinc(0.5 * m / wall.along)
-            values, turn = np.linalg.eigh(thickness / np.outer(mean, mean) - local * np.eye(m.size))
-            axial = np.cos(np.pi * np.outer(height, m)) * np.sqrt(np.where(m > 0, 2.0, 1.0))
-            axial = axial @ turn
-            for around in (np.cos, np.sin)[: 2 if n else 1]:
-                circle = around(n * angle) * (np.sqrt(2.0) if n else 1.0)
-                both = axial[:, None, :] * circle[None, :, None] / np.sqrt(wall.area)
-                shapes.append(both.reshape(-1, m.size))
-                weights.append(values)
-        return cls(local, np.hstack(shapes), np.concatenate(weights))
-
-
-def _outside(n: int, m: np.ndarray, wall: Wall, limit: float) -> np.ndarray:
-    """Thickness of air outside in cosines along a wall that goes on rigidly, m.
-
-    (1/pi) int_0^inf d_n(k) c_i(k) c_j(k) dk with their transforms c, real or imaginary by parity.
-    """
-    length = wall.length
-    panel = np.pi / length
-    first = panel * np.concatenate([[0.0], 0.5 ** np.arange(_SPLITS, -1.0, -1.0)])
-    ends = np.concatenate([first, panel * np.arange(2, int(_REACH * limit / panel) + 2)])
-    node, weight = np.polynomial.legendre.leggauss(_NODES)
-    half = 0.5 * np.diff(ends)[:, None]
-    k = (0.5 * (ends[1:] + ends[:-1])[:, None] + half * node).ravel()
-    weight = (half * weight).ravel()
-    q = np.pi * m[:, None] / length
-    below, above = (0.5 * length * np.sinc(0.5 * length * (k + s * q) / np.pi) for s in (-1, 1))
-    parity = np.where(m % 2, -1.0, 1.0)
-    sign = np.where(m // 2 % 2, -1.0, 1.0)
-    size = np.sqrt(np.where(m > 0, 2.0, 1.0) / length)
-    transform = (sign * size)[:, None] * (below + parity[:, None] * above)
-    integral = (transform * (weight * outside(n, k, wall.radius))) @ transform.T / np.pi
-    return np.where(np.equal.outer(parity, parity), integral, 0.0)
+        local = 2 * np.log(2) / waves.limit
+        weights, turn = np.linalg.eigh(thickness - local * np.eye(len(thickness)))
+        kept = weights != 0
+        return cls(local, waves.shapes @ turn[:, kept], weights[kept])
