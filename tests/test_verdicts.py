@@ -29,6 +29,7 @@ from foilstudy.measure.verdicts.shape import (
     hidden_energy,
 )
 from foilstudy.model.foil import Imperfection
+from foilstudy.model.supports.moves import Move
 from foilstudy.pipeline.crumple import crumple, uncrumpled
 from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.evidence import seen_in, sensors
