@@ -20,6 +20,7 @@ from .sections import (
     AUTO,
     CONFIDENCE_DEFAULT_PERCENT,
     HEIGHT_MAX_MM,
+    Amplitude,
     Dynamics,
     Imperfection,
     Installation,
@@ -128,6 +129,9 @@ class StudyConfig(Section):
     method: Method = Field(default_factory=Method, description="Strategies of crumpling.")
     stiffness: Stiffness = Field(default_factory=Stiffness, description="Static stiffness.")
     dynamics: Dynamics = Field(default_factory=Dynamics, description="Dynamic stiffness.")
+    amplitude: Amplitude = Field(
+        default_factory=Amplitude, description="How far the stiffness holds."
+    )
     isolation: Isolation = Field(
         default_factory=Isolation, description="Isolated payload with foil links."
     )
@@ -384,6 +388,7 @@ class StudyConfig(Section):
             error_percent=self.stiffness.error_percent,
             refinements=self._refinements_of(cell),
             dynamics=self.dynamics,
+            linear_directions=self.amplitude.directions,
             thickness_um=cell.thickness_um,
             reference_height_mm=cell.reference_height_mm,
             seed=cell.seed,

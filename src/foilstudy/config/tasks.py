@@ -61,3 +61,4 @@ class ResponseTask(_Task):
     error_percent: float | None = None
     refinements: int = Field(ge=0)
     dynamics: Dynamics
+    linear_directions: tuple[str, ...] = Field((), strict=False)

@@ -16,6 +16,7 @@ MODULES = (
     "limits.plan",
     "limits.quick",
     "limits.measured",
+    "amplitude.plan",
 )
 """Modules of this package that define a ``STUDY``."""
 

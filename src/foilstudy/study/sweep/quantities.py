@@ -33,6 +33,8 @@ class Declared:
         From the one to the other.
     yielding : bool
         Whether there is one only where the material law lets the foil yield.
+    swept : bool
+        Whether there is one only where a study asks how far the stiffness holds.
     """
 
     units: str
@@ -42,6 +44,7 @@ class Declared:
     cube_units: str = ""
     cube_scale: float = 1.0
     yielding: bool = False
+    swept: bool = False
 
 
 def _length(words: str) -> Declared:
@@ -71,6 +74,13 @@ QUANTITIES: dict[str, Declared] = {
     ),
     "prestressed_stiffness_mesh_error": Declared(
         "N/m", "step of prestressed_stiffness_converged from the next coarser mesh", _DIRECTION
+    ),
+    "linear_amplitude": Declared(
+        "m",
+        "amplitude at which the secant stiffness at the stressed equilibrium has changed by 1 %, "
+        "infinite where it is beyond 1 mm",
+        _DIRECTION,
+        swept=True,
     ),
     "refined_static_stiffness": Declared(
         "N/m", "static stiffness of the shape relaxed again on the finest mesh", _DIRECTION

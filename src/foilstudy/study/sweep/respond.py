@@ -16,8 +16,10 @@ from foilstudy.config.scene import dynamics_of
 from foilstudy.linalg import SolveError
 from foilstudy.measure.dynamics import DynamicsOptions, Structure
 from foilstudy.measure.stiffness import fixed_stiffness, free_stiffness
+from foilstudy.measure.stiffness.directional import DIRECTIONS
 from foilstudy.measure.verdicts import Evidence, flags, verdicts
 from foilstudy.model.patch import Patch
+from foilstudy.pipeline.amplitude.sweep import linear_amplitude
 from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.structures import stress_free_structure
 from foilstudy.pipeline.vibration import surface_modes, vibration_of
@@ -43,7 +45,11 @@ def respond_job(task: ResponseTask, crumple_path: Path, path: Path) -> None:
 
     def work() -> Outcome:
         values = _measured(task, Crumpled.of_record(recorded, attributes))
-        missing = _without_prestress(values), _beyond_validity(task, values)
+        missing = (
+            _without_prestress(values),
+            _without_amplitude(task, values),
+            _beyond_validity(task, values),
+        )
         words = filter(None, (outcome.message, *missing))
         return Outcome(outcome.status, "; ".join(words), values)
 
@@ -80,6 +86,20 @@ def _without_prestress(values: dict) -> str:
     return "no pre-stressed stiffness, as the tangent of the crumple is singular"
 
 
+def _without_amplitude(task: ResponseTask, values: dict) -> str:
+    without = [
+        direction
+        for direction, amplitude in zip(DIRECTIONS, values.get("linear_amplitude", ()))
+        if direction in task.linear_directions and np.isnan(amplitude)
+    ]
+    if not without:
+        return ""
+    return (
+        f"no {' and '.join(without)} linear amplitude, as the foil finds no equilibrium on the way "
+        "to it"
+    )
+
+
 def _beyond_validity(task: ResponseTask, values: dict) -> str:
     """What to say of a reduced model that does not reach to the end of the band."""
     error, options = values["reduction_error"], task.dynamics
@@ -106,7 +126,7 @@ def _summary(values: dict) -> str:
 def _measured(task: ResponseTask, crumpled: Crumpled) -> Values:
     with measured() as static:
         structure = stress_free_structure(crumpled)
-        values = _static(crumpled, structure, task)
+        values = _static(crumpled, structure, task) | _amplitudes(crumpled, task)
     with measured() as dynamic:
         values |= _dynamic(structure, dynamics_of(task.dynamics), crumpled.patch)
     return values | {"seconds_static": static.seconds, "seconds_dynamic": dynamic.seconds}
@@ -128,6 +148,17 @@ def _static(crumpled: Crumpled, structure: Structure, task: ResponseTask) -> Val
         "interface_stiffness": interface,
         "prestressed_stiffness": _prestressed(crumpled),
     }
+
+
+def _amplitudes(crumpled: Crumpled, task: ResponseTask) -> Values:
+    """How far the stiffness holds, in the directions that the task asks for."""
+    if not task.linear_directions:
+        return {}
+    found = [
+        linear_amplitude(crumpled, direction) if direction in task.linear_directions else np.nan
+        for direction in DIRECTIONS
+    ]
+    return {"linear_amplitude": np.array(found)}
 
 
 def _dynamic(structure: Structure, options: DynamicsOptions, patch: Patch) -> Values:
