@@ -7,8 +7,11 @@ import pytest
 import scipy.sparse as sparse
 from conftest import DIAMETER, FEP, FOIL
 from scipy.special import ellipk
+from small_study import SECTIONS
 
 from foilstudy.base.errors import Refusal
+from foilstudy.base.record import read_record
+from foilstudy.config import load_config
 from foilstudy.linalg import factorise, lowest_modes
 from foilstudy.measure.amplitude.curve import ForceCurve, Side
 from foilstudy.measure.amplitude.harmonic_balance import HarmonicBalance
@@ -29,10 +32,16 @@ from foilstudy.pipeline.amplitude import (
     ring_sweep,
 )
 from foilstudy.pipeline.crumple import crumple, uncrumpled
+from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.pipeline.structures import prestressed_stiffness, stress_free_stiffness
 from foilstudy.solve.equilibrium.swept import RingMotion, swept
 from foilstudy.solve.paths.relaxation import RelaxationPath
+from foilstudy.study.sweep.crumple import crumple_job
+from foilstudy.study.sweep.cube import gather
+from foilstudy.study.sweep.cylinder import cylinder_bounds
+from foilstudy.study.sweep.origins import cell_folder
+from foilstudy.study.sweep.respond import respond_job
 
 
 def crumpled_on(element_size, foil=FOIL):
@@ -346,3 +355,32 @@ def test_harmonic_balance_holds_against_time_integration():
     resonance = curve.frequency[curve.amplitude.argmax()]
     crest = series[curve.amplitude.argmax()].max()
     assert resonance == pytest.approx(spring.period_frequency(crest), rel=5e-3)
+
+
+# --- in a study -----------------------------------------------------------------------------------
+
+
+def test_a_study_asks_for_linear_amplitudes(tmp_path):
+    sweep = {"thickness_um": [500], "reference_height_mm": [143], "realisations": 1}
+    sections = SECTIONS | {"sweep": sweep}
+    plain, asked = (
+        load_config(sections | {"amplitude": {"directions": directions}})
+        for directions in ([], ["axial"])
+    )
+    (cell,) = asked.cells()
+    place = cell_folder(tmp_path, cell)
+    assert plain.crumple_task(cell) == asked.crumple_task(cell)
+    crumple_job(asked.crumple_task(cell), place / "crumple.nc")
+    found = {}
+    for study in (plain, asked):  # the latter stays for the cube
+        respond_job(study.response_task(cell), place / "crumple.nc", place / "response.nc")
+        found[study.amplitude.directions], _ = read_record(place / "response.nc")
+    assert found["axial",].keys() - found[()].keys() == {"linear_amplitude"}
+    for name in found[()].keys() - {"seconds_static", "seconds_dynamic", "peak_memory"}:
+        np.testing.assert_array_equal(found["axial",][name], found[()][name], name)
+    cylinder_bounds(asked, tmp_path / "cylinder.nc")
+    amplitude = gather(asked, tmp_path, tmp_path / "cube.nc")["linear_amplitude"]
+    assert amplitude.dims == ("thickness", "overlength", "seed", "direction")
+    assert amplitude.units == "m" and np.isnan(amplitude.sel(direction="radial")).all()
+    expected = linear_amplitude(Crumpled.recorded(place / "crumple.nc"), "axial")
+    assert float(amplitude.sel(direction="axial")[0, 0, 0]) == expected > 0

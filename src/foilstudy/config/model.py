@@ -23,6 +23,7 @@ from .sections import (
     AUTO,
     CONFIDENCE_DEFAULT_PERCENT,
     HEIGHT_MAX_MM,
+    Amplitude,
     Dynamics,
     Imperfection,
     Installation,
@@ -136,6 +137,9 @@ class StudyConfig(Section):
     stiffness: Stiffness = Field(default_factory=Stiffness, description="Static stiffness.")
     dynamics: Dynamics = Field(default_factory=Dynamics, description="Dynamic stiffness.")
     air: Air = Field(default_factory=Air, description="Air about the foil.")
+    amplitude: Amplitude = Field(
+        default_factory=Amplitude, description="How far the stiffness holds."
+    )
     isolation: Isolation = Field(
         default_factory=Isolation, description="Isolated payload with foil links."
     )
@@ -446,6 +450,7 @@ class StudyConfig(Section):
             refinements=self._refinements_of(cell),
             dynamics=self.dynamics,
             air=self.air,
+            linear_directions=self.amplitude.directions,
             thickness_um=cell.thickness_um,
             reference_height_mm=cell.reference_height_mm,
             seed=cell.seed,

@@ -65,3 +65,4 @@ class ResponseTask(_Task):
     refinements: int = Field(ge=0)
     dynamics: Dynamics
     air: Air
+    linear_directions: tuple[str, ...] = Field((), strict=False)

@@ -19,6 +19,7 @@ MODULES = (
     "limits.bounds",
     "real.plan",
     "specimen.plan",
+    "amplitude.plan",
 )
 """Modules of this package that define a ``STUDY``."""
 

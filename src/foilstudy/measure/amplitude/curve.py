@@ -47,15 +47,21 @@ class Side:
         """Force over motion, N/m."""
         return self.force / self.motion
 
-    def reaches(self, stiffness: float, share: float) -> float:
+    def reaches(self, stiffness: float, share: float, values: np.ndarray | None = None) -> float:
         """First way, without its sign, at which the secant differs from a stiffness by a share.
 
         A power law of the change between two steps, which is exact where a change begins; from a
         step without a change of that sign on a straight line. Infinite where no step differs so
         much, m.
+
+        Parameters
+        ----------
+        stiffness, share : float
+        values : ndarray, optional
+            Others than the secant, one for each step, N/m.
         """
         ways = np.abs(self.motion[self.found])
-        change = self.secant[self.found] / stiffness - 1
+        change = (self.secant if values is None else values)[self.found] / stiffness - 1
         beyond = np.flatnonzero(np.abs(change) >= share)
         if not beyond.size:
             return np.inf
@@ -104,7 +110,14 @@ class ForceCurve:
         That of the side where it comes first. Infinite where the whole sweep stays within it, NaN
         where a side ended earlier for want of an equilibrium.
         """
-        ways = [side.reaches(self.stiffness, share) for side in self.sides]
+        return self._least([side.reaches(self.stiffness, share) for side in self.sides])
+
+    def tangent_amplitude(self, share: float = LINEAR_SHARE) -> float:
+        """The same of the tangent, which is what a small motion about a moved ring meets, m."""
+        ways = [side.reaches(self.stiffness, share, side.tangent) for side in self.sides]
+        return self._least(ways)
+
+    def _least(self, ways: list[float]) -> float:
         least = min(ways, default=np.nan)
         cut = [np.abs(s.motion[s.found]).max(initial=0.0) for s in self.sides if not s.found.all()]
         return float(np.nan if any(least > way for way in cut) else least)

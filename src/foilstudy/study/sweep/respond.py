@@ -18,8 +18,10 @@ from foilstudy.measure.air.protocols import Air
 from foilstudy.measure.air.surface import WettedSurface
 from foilstudy.measure.dynamics import DynamicsOptions, Structure
 from foilstudy.measure.stiffness import fixed_stiffness, free_stiffness
+from foilstudy.measure.stiffness.directional import DIRECTIONS
 from foilstudy.measure.verdicts import Evidence, flags, verdicts
 from foilstudy.model.patch import Patch
+from foilstudy.pipeline.amplitude.sweep import linear_amplitude
 from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.structures import in_air, stress_free_structure
 from foilstudy.pipeline.true_state import true_state
@@ -46,7 +48,12 @@ def respond_job(task: ResponseTask, crumple_path: Path, path: Path) -> None:
 
     def work() -> Outcome:
         values = _measured(task, Crumpled.of_record(recorded, attributes))
-        missing = _without_prestress(values), _beyond_validity(task, values), _unstable(values)
+        missing = (
+            _without_prestress(values),
+            _without_amplitude(task, values),
+            _beyond_validity(task, values),
+            _unstable(values),
+        )
         words = filter(None, (outcome.message, *missing))
         return Outcome(outcome.status, "; ".join(words), values)
 
@@ -81,6 +88,20 @@ def _without_prestress(values: dict) -> str:
     if np.isfinite(values["prestressed_stiffness"]).all():
         return ""
     return "no pre-stressed stiffness, as the tangent of the crumple is singular"
+
+
+def _without_amplitude(task: ResponseTask, values: dict) -> str:
+    without = [
+        direction
+        for direction, amplitude in zip(DIRECTIONS, values.get("linear_amplitude", ()))
+        if direction in task.linear_directions and np.isnan(amplitude)
+    ]
+    if not without:
+        return ""
+    return (
+        f"no {' and '.join(without)} linear amplitude, as the foil finds no equilibrium on the way "
+        "to it"
+    )
 
 
 def _beyond_validity(task: ResponseTask, values: dict) -> str:
@@ -120,7 +141,7 @@ def _summary(values: dict) -> str:
 def _measured(task: ResponseTask, crumpled: Crumpled) -> Values:
     with measured() as static:
         structure = stress_free_structure(crumpled)
-        values = _static(crumpled, structure, task)
+        values = _static(crumpled, structure, task) | _amplitudes(crumpled, task)
     with measured() as dynamic:
         options, air = dynamics_of(task.dynamics), air_of(task.air)
         if task.air.kind != "none":
@@ -180,6 +201,17 @@ def _without_air(structure: Structure, crumpled: Crumpled) -> Values:
         "vacuum_first_eigenfrequency": float(np.sqrt(first) / (2 * np.pi)),
         "enclosed_volume": WettedSurface(crumpled.patch, crumpled.points).volume,
     }
+
+
+def _amplitudes(crumpled: Crumpled, task: ResponseTask) -> Values:
+    """How far the stiffness holds, in the directions that the task asks for."""
+    if not task.linear_directions:
+        return {}
+    found = [
+        linear_amplitude(crumpled, direction) if direction in task.linear_directions else np.nan
+        for direction in DIRECTIONS
+    ]
+    return {"linear_amplitude": np.array(found)}
 
 
 def _dynamic(structure: Structure, options: DynamicsOptions, patch: Patch) -> Values:

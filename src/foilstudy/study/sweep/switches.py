@@ -12,6 +12,7 @@ SWITCHES: dict[str, Callable[[StudyConfig], bool]] = {
     "in_air": lambda study: study.air.kind != "none",
     "drawing": lambda study: bool(study.specimen.draws),
     "lets_go": lambda study: study.lets_go,
+    "swept": lambda study: bool(study.amplitude.directions),
     "retrying": lambda study: study.method.retries > 0,
 }
 """Whether a study has the quantities whose `Declared.only` is such a name."""

@@ -1,0 +1,146 @@
+"""Which crumples are swept and which of their modes are looked at."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from foilstudy.study.kernel.plan import Lazy, Part, Study, results
+from foilstudy.study.published import HEIGHT_MM, THICKNESSES_UM
+
+SIZE_MM, COARSE_MM = 5.0, 10.0
+"""Of the elements of sweeps; of those of time integrations, each of which takes thousands of steps
+a period."""
+SEEDS = (0, 1)
+EVERYWHERE, ONCE = ("axial", "radial_x"), ("tilt_x", "twist")
+"""Motions of all crumples, and of those of the first seed."""
+AMPLITUDE_MM = 1.0
+MODES = 3
+RELEASED_MM = (0.1, 0.5)
+"""Largest displacements from which modes are let go."""
+PERIODS = 4.2
+
+
+@dataclass(frozen=True)
+class Shape:
+    """A crumple of the default method and imperfection.
+
+    Attributes
+    ----------
+    thickness_um, height_mm : int
+        Of the foil and of the uncrumpled cylinder.
+    size_mm : float
+        Element size asked for.
+    seed : int
+    """
+
+    thickness_um: int
+    height_mm: int
+    size_mm: float
+    seed: int
+
+
+@dataclass(frozen=True)
+class State:
+    """A crumple as it is or free of stress.
+
+    Attributes
+    ----------
+    prestressed : bool
+    """
+
+    thickness_um: int
+    height_mm: int
+    size_mm: float
+    seed: int
+    prestressed: bool
+
+    @property
+    def shape(self) -> Shape:
+        """The crumple."""
+        return Shape(self.thickness_um, self.height_mm, self.size_mm, self.seed)
+
+    @property
+    def words(self) -> str:
+        """For people."""
+        state = "pre-stressed" if self.prestressed else "stress-free"
+        return f"{self.thickness_um} um, {state}"
+
+
+@dataclass(frozen=True)
+class Sweep(State):
+    """One motion of the ring of a crumple.
+
+    Attributes
+    ----------
+    motion : str
+        See `foilstudy.pipeline.amplitude.MOTIONS`.
+    """
+
+    motion: str
+
+
+@dataclass(frozen=True)
+class Letting(State):
+    """A mode of a crumple that is let go.
+
+    Attributes
+    ----------
+    mode : int
+        From 1.
+    displacement_mm : float
+        Largest of a control point.
+    """
+
+    mode: int
+    displacement_mm: float
+
+
+def _states(thicknesses, size_mm, seeds):
+    return [
+        (t, HEIGHT_MM, size_mm, seed, stressed)
+        for t in thicknesses
+        for seed in seeds
+        for stressed in (False, True)
+    ]
+
+
+SWEEPS = tuple(
+    Sweep(*state, motion)
+    for state in _states(THICKNESSES_UM, SIZE_MM, SEEDS)
+    for motion in (*EVERYWHERE, *(ONCE if state[3] == SEEDS[0] else ()))
+)
+STATES = tuple(State(*state) for state in _states(THICKNESSES_UM, SIZE_MM, SEEDS))
+LETTINGS = tuple(
+    Letting(*state, mode, displacement)
+    for state in _states(THICKNESSES_UM[:1], COARSE_MM, SEEDS[:1])
+    for mode in range(1, MODES + 1)
+    for displacement in RELEASED_MM
+)
+
+_HERE = "foilstudy.study.amplitude"
+_NEEDS = {"shapes": lambda case: [case.shape]}
+
+STUDY = Study(
+    name="amplitude",
+    title="how far the stiffness holds",
+    parts=(
+        Part(
+            "shapes",
+            tuple(dict.fromkeys(case.shape for case in (*SWEEPS, *LETTINGS))),
+            Lazy(f"{_HERE}.measure:crumple_shape"),
+            arrays=("points",),
+        ),
+        Part("sweeps", SWEEPS, Lazy(f"{_HERE}.measure:sweep"), needs=_NEEDS),
+        Part("modes", STATES, Lazy(f"{_HERE}.measure:modes"), needs=_NEEDS),
+        Part("releases", LETTINGS, Lazy(f"{_HERE}.measure:release"), needs=_NEEDS),
+    ),
+    findings=results,
+    tables={
+        "sweeps.csv": Lazy(f"{_HERE}.tables:steps"),
+        "linear.csv": Lazy(f"{_HERE}.tables:linear"),
+        "modes.csv": Lazy(f"{_HERE}.tables:modes"),
+        "releases.csv": Lazy(f"{_HERE}.tables:releases"),
+        "amplitude.md": Lazy(f"{_HERE}.tables:page"),
+    },
+    figures={name: Lazy(f"{_HERE}.figures:{name}") for name in ("stiffness", "backbones")},
+)
