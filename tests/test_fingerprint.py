@@ -38,6 +38,7 @@ REGISTRIES = {
     "reduction": "measure.choices",
     "damping": "measure.choices",
     "export format": "export.formats",
+    "contact": "model.contact",
 }
 """By kind, the modules that hold them."""
 NOT_IN_TASKS = {

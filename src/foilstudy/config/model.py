@@ -13,6 +13,7 @@ from pydantic import Field, model_validator
 from foilstudy.base.errors import ConfigError
 
 from .accuracy import ACCURACIES, STANDARD, Accuracy, completed
+from .contact import Contact, ContactUse, contact_problems
 from .export import Export
 from .isolation import Isolation
 from .mesh import Mesh, MeshUse, mesh_problems, refinements_that_fit
@@ -125,6 +126,9 @@ class StudyConfig(Section):
     installation: Installation = Field(
         default_factory=Installation, description="How the foil is fitted."
     )
+    contact: Contact = Field(
+        default_factory=Contact, description="What parts of the foil do that come near each other."
+    )
     method: Method = Field(default_factory=Method, description="Strategies of crumpling.")
     stiffness: Stiffness = Field(default_factory=Stiffness, description="Static stiffness.")
     dynamics: Dynamics = Field(default_factory=Dynamics, description="Dynamic stiffness.")
@@ -182,6 +186,8 @@ class StudyConfig(Section):
         problems += self._size_problems()
         problems += self._thickness_problems()
         problems += self._installation_problems()
+        if not problems:  # its meshes are there
+            problems += self._contact_problems()
         problems += _duplicates("sweep.thickness_um", self.sweep.thickness_um, thickness_id)
         if self.sweep.reference_height_mm is not None:
             problems += _duplicates(
@@ -240,6 +246,17 @@ class StudyConfig(Section):
                     f"{distance:.3g} mm apart; keep them between {STOP_MIN * gap:.3g} mm and the "
                     "height of the cylinder."
                 )
+
+    def _contact_problems(self) -> list[str]:
+        use = ContactUse(
+            self.sheet.diameter_mm,
+            self.reference_heights_mm,
+            {each: self.mesh_of(each).element_size_mm for each in self.thicknesses_um},
+            self.mesh.ramp_coarsenings,
+            self.stiffness.relaxed_refinements,
+            self.method,
+        )
+        return list(contact_problems(self.contact, use))
 
     def _size_problems(self) -> Iterator[str]:
         number = len(self.thicknesses_um) * len(self.reference_heights_mm) * len(self.seeds)
@@ -370,6 +387,7 @@ class StudyConfig(Section):
             mesh=self.mesh_of(cell.thickness_um),
             relaxation=self.relaxation_of(cell.thickness_um),
             installation=self.installation,
+            contact=self.contact,
             method=self.method,
             thickness_um=cell.thickness_um,
             reference_height_mm=cell.reference_height_mm,

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
+from foilstudy.config.contact import Contact as ContactSection
 from foilstudy.config.mesh import Mesh as MeshSection
 from foilstudy.config.sections import Dynamics
 from foilstudy.config.tasks import CrumpleTask
 from foilstudy.measure.choices import STRESS_REMOVALS, STRUCTURAL_DAMPINGS
 from foilstudy.measure.dynamics import DynamicsOptions
+from foilstudy.model.contact import CONTACTS, Contact
 from foilstudy.model.foil import Imperfection
 from foilstudy.pipeline.crumpled import Recipe
 from foilstudy.pipeline.method import Mesh, Method
@@ -52,7 +55,19 @@ def method_of(task: CrumpleTask) -> Method:
     if task.installation.stops_percent:
         stages = tuple(each / 100 for each in task.installation.stops_percent)
         path = replace(path, stages=stages)
-    return Method(path, STRESS_REMOVALS[method.stress_removal]())
+    return Method(path, STRESS_REMOVALS[method.stress_removal](), contact_of(task.contact))
+
+
+def contact_of(section: ContactSection) -> Contact:
+    """What parts of the foil do that come near each other."""
+    if section.kind == "none":
+        return CONTACTS[section.kind]()
+    given: dict[str, Any] = {"ring_planes": section.ring_planes}
+    if section.reach_mm is not None:
+        given["reach"] = section.reach_mm * 1e-3
+    if section.stiffness is not None:
+        given["stiffness"] = section.stiffness
+    return CONTACTS[section.kind](**given)
 
 
 def dynamics_of(section: Dynamics) -> DynamicsOptions:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
+from .contact import Contact
 from .mesh import Mesh
 from .sections import (
     Dynamics,
@@ -46,6 +47,7 @@ class CrumpleTask(_Task):
     mesh: Mesh
     relaxation: Relaxation
     installation: Installation
+    contact: Contact
     method: Method
 
 

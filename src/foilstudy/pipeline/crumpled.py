@@ -15,6 +15,12 @@ from foilstudy.base.record import read_record
 from foilstudy.base.spec import dumped, loaded
 from foilstudy.measure.dynamics import DynamicsOptions
 from foilstudy.measure.stiffness import prestressed_stiffness
+from foilstudy.measure.stiffness.contacts import (
+    ContactBracket,
+    Touching,
+    contact_bracket,
+    contact_springs,
+)
 from foilstudy.measure.stiffness.stress_removal import Relieved, StressRemoval
 from foilstudy.measure.verdicts import Verdict, verdicts
 from foilstudy.model.foil import Foil, Imperfection
@@ -31,7 +37,7 @@ from foilstudy.pipeline.static import (
 from foilstudy.pipeline.structures import stress_free_structure
 from foilstudy.pipeline.vibration import Vibration, vibration_of
 from foilstudy.solve.paths import Arrival
-from foilstudy.solve.problem import Problem
+from foilstudy.solve.problem import Problem, Term
 
 
 @dataclass(frozen=True)
@@ -116,6 +122,14 @@ class Crumpled(Shape):
         """The shell that the recipe calls stress-free in this shape."""
         return super().relieved(removal or self.method.stress_removal)
 
+    def contacts(self) -> tuple[Touching, ...]:
+        """The terms of contact, fresh; none where parts pass through each other."""
+        return self.method.contact.terms(self.stressed.section)
+
+    def terms(self) -> tuple[Term, ...]:
+        """See `Shape`; contact comes last."""
+        return *super().terms(), *self.contacts()
+
     def problem(self) -> Problem:
         """The potential energy of the foil, at the state in which it has arrived."""
         problem = super().problem()
@@ -183,20 +197,39 @@ class Crumpled(Shape):
         """
         return prestressed_stiffness(self.problem(), self.points)
 
+    def contact_bracket(self) -> ContactBracket:
+        """Stress-free stiffness between what closed contacts may do, see `ContactBracket`.
+
+        Raises
+        ------
+        SolveError
+            If a stiffness is singular.
+        """
+        return contact_bracket(self.relieved(), self.contacts(), self.points)
+
     def verdicts(self) -> tuple[Verdict, ...]:
         """What the numbers of the crumple say of it, see `foilstudy.measure.verdicts`."""
         count = self.arrival.negative_eigenvalues if self.arrival else None
         return verdicts(evidence_of(self, self.status, count))
 
-    def vibration(self, options: DynamicsOptions | None = None) -> Vibration:
+    def vibration(
+        self, options: DynamicsOptions | None = None, contacts: str = "ignored"
+    ) -> Vibration:
         """Dynamic stiffness, eigenfrequencies and mode shapes of the stress-free shape.
+
+        Parameters
+        ----------
+        options : DynamicsOptions, optional
+        contacts : str
+            What closed contacts do, a name of `ContactBracket`.
 
         Raises
         ------
         SolveError
             If a factorisation, the reduction or a mode search fails.
         """
-        return vibration_of(stress_free_structure(self), options or DynamicsOptions())
+        springs = contact_springs(contacts, self.contacts(), self.points)
+        return vibration_of(stress_free_structure(self, springs), options or DynamicsOptions())
 
     def plot(self, ax=None):
         """Shaded picture, coloured by radial displacement.
@@ -261,6 +294,7 @@ class Crumpled(Shape):
             attributes["status"], attributes["message"], points,
             float(values["equilibrium_residual"]), _count(values["negative_eigenvalues"]),
             int(values["steps"]), int(values["newton_steps"]), int(values["hessians"]), None,
+            shortened_steps=int(values.get("contact_shortened_steps", 0)),
         )  # fmt: skip
         element = recipe.mesh.element_at_work()
         return cls(foil, patch, points, reference, element, recipe, arrival)._remembering(values)

@@ -15,7 +15,7 @@ from foilstudy.model.shell.elements.protocol import Element
 from foilstudy.model.shell.material import LAWS
 from foilstudy.model.shell.section import Section
 from foilstudy.model.shell.shell import Energies, Shell
-from foilstudy.solve.problem import Problem
+from foilstudy.solve.problem import Problem, Term
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -48,10 +48,13 @@ class Shape:
         law = LAWS[material.law](material)
         return Shell(Section(self.patch, self.reference, self.foil.thickness, law), self.element)
 
+    def terms(self) -> tuple[Term, ...]:
+        """What the potential energy has beside that of the elastic shell: what its law adds."""
+        return self.stressed.section.law.terms(self.stressed)
+
     def problem(self) -> Problem:
-        """The potential energy of the foil: its shell, and what its law adds to that."""
-        shell = self.stressed
-        return Problem(shell, *shell.section.law.terms(shell))
+        """The potential energy of the foil."""
+        return Problem(self.stressed, *self.terms())
 
     def relieved(self, removal: StressRemoval | None = None) -> Relieved:
         """The shell that is stress-free in this shape."""

@@ -43,6 +43,8 @@ class Arrival:
         Share of the shortening that the path has come to.
     budget_spent : bool
         Whether it ended there for want of factorisations.
+    shortened_steps : int
+        Steps of the motion that were shortened, lest parts of the foil cross.
     """
 
     status: str
@@ -58,6 +60,7 @@ class Arrival:
     state: tuple[Any, ...] = ()
     reached: float = 1.0
     budget_spent: bool = False
+    shortened_steps: int = 0
 
     def after(self, earlier: Arrival) -> Arrival:
         """The same with the work and the history of what came before, on a coarser mesh say."""

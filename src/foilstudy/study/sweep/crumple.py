@@ -99,6 +99,7 @@ def _radial_displacement(surface: np.ndarray, reference: np.ndarray) -> np.ndarr
 def _numbers(crumpled: Crumpled) -> dict[str, float]:
     arrival, points, patch = crumpled.arrival, crumpled.points, crumpled.patch
     problem, force = crumpled.problem(), np.empty_like(points)
+    touches = crumpled.method.touches
     energies = zip(problem.energy_names, problem.force(points, force), strict=True)
     surface = knot_points(points)
     radial = _radial_displacement(surface, knot_points(crumpled.reference))
@@ -117,4 +118,5 @@ def _numbers(crumpled: Crumpled) -> dict[str, float]:
         "radial_displacement_rms": np.sqrt(np.mean(radial**2)),
         **sensors(crumpled),
         **problem.numbers(),
+        **({"contact_shortened_steps": float(arrival.shortened_steps)} if touches else {}),
     }

@@ -63,9 +63,11 @@ def gather(study: StudyConfig, results: Path, path: Path) -> xr.Dataset:
     """
     wanted = wanted_cells(study, lambda cell: recorded_values(study, results, cell))
     coordinates = _coordinates(study, wanted)
-    elastic = study.material.law == "elastic"
+    elastic, passing = study.material.law == "elastic", study.contact.kind == "none"
     variables = {
-        name: q for name, q in QUANTITIES.items() if q.in_cube and not (elastic and q.yielding)
+        name: q
+        for name, q in QUANTITIES.items()
+        if q.in_cube and not (elastic and q.yielding) and not (passing and q.touching)
     }
     sizes = {name: len(values) for name, (_, values, _) in coordinates.items()}
     cells = tuple(sizes[name] for name in _CELL)

@@ -33,6 +33,8 @@ class Declared:
         From the one to the other.
     yielding : bool
         Whether there is one only where the material law lets the foil yield.
+    touching : bool
+        Whether there is one only where parts of the foil may touch.
     """
 
     units: str
@@ -42,11 +44,17 @@ class Declared:
     cube_units: str = ""
     cube_scale: float = 1.0
     yielding: bool = False
+    touching: bool = False
 
 
 def _length(words: str) -> Declared:
     """A length in m that the cube gives in mm."""
     return Declared("m", words, cube_units="mm", cube_scale=1e3)
+
+
+def _contact_stiffness(words: str) -> Declared:
+    words = f"static stiffness, other motions held, closed contacts {words}"
+    return Declared("N/m", words, _DIRECTION, touching=True)
 
 
 def _record_only(units: str, words: str, dims: tuple[str, ...]) -> Declared:
@@ -62,6 +70,10 @@ QUANTITIES: dict[str, Declared] = {
     "static_stiffness_mesh_error": Declared(
         "N/m", "estimated mesh error of static_stiffness_converged", _DIRECTION
     ),
+    "stiffness_contacts_ignored": _contact_stiffness("as if they were open"),
+    "stiffness_contacts_normal": _contact_stiffness("springs along their gaps, as the barrier"),
+    "stiffness_contacts_rigid": _contact_stiffness("rigid along their gaps"),
+    "stiffness_contacts_stuck": _contact_stiffness("rigid in all directions"),
     "static_refinements": Declared("1", "refinements of the shape that these took"),
     "prestressed_stiffness": Declared(
         "N/m", "static stiffness at the stressed equilibrium, other motions held", _DIRECTION
@@ -116,6 +128,23 @@ QUANTITIES: dict[str, Declared] = {
     "plastic_strain_max": Declared("1", "largest accumulated plastic strain", yielding=True),
     "dissipated_work": Declared("J", "work that plastic flow has used up", yielding=True),
     "self_crossing_share": Declared("1", "share of the surface crossed by another part"),
+    "contact_share": Declared("1", "share of the knots in closed contacts", touching=True),
+    "contact_pairs": Declared(
+        "1", "pairs of points and triangles or edges that touch", touching=True
+    ),
+    "contact_knots_at_rings": Declared(
+        "1", "knots that touch the planes of the rings", touching=True
+    ),
+    "contact_gap_min": Declared(
+        "m",
+        "smallest gap of a closed contact",
+        cube_units="um",
+        cube_scale=1e6,
+        touching=True,
+    ),
+    "contact_shortened_steps": Declared(
+        "1", "steps shortened lest parts of the foil cross", touching=True
+    ),
     "broad_wave_share": Declared(
         "1", "share of the radial displacement that bulges or sways the cylinder as a whole"
     ),

@@ -16,6 +16,7 @@ from foilstudy.config.scene import dynamics_of
 from foilstudy.linalg import SolveError
 from foilstudy.measure.dynamics import DynamicsOptions, Structure
 from foilstudy.measure.stiffness import fixed_stiffness, free_stiffness
+from foilstudy.measure.stiffness.contacts import CONTACT_SPRINGS
 from foilstudy.measure.verdicts import Evidence, flags, verdicts
 from foilstudy.model.patch import Patch
 from foilstudy.pipeline.crumpled import Crumpled
@@ -127,7 +128,13 @@ def _static(crumpled: Crumpled, structure: Structure, task: ResponseTask) -> Val
         "static_refinements": float(limit.refinements),
         "interface_stiffness": interface,
         "prestressed_stiffness": _prestressed(crumpled),
+        **(_bracket(crumpled) if crumpled.method.touches else {}),
     }
+
+
+def _bracket(crumpled: Crumpled) -> Values:
+    bracket = crumpled.contact_bracket()
+    return {f"stiffness_contacts_{kind}": getattr(bracket, kind) for kind in CONTACT_SPRINGS}
 
 
 def _dynamic(structure: Structure, options: DynamicsOptions, patch: Patch) -> Values:
