@@ -9,23 +9,24 @@ from conftest import DIAMETER, FEP, GAP_HEIGHT, imperfect_sheet, rotation
 
 from foilstudy.base.errors import Refusal
 from foilstudy.linalg import SolveError
-from foilstudy.model.contact import Contact, SelfContact
 from foilstudy.model.contact.barrier import PARALLEL, pair_energy, pair_hessian
-from foilstudy.model.contact.candidates import candidates
 from foilstudy.model.contact.distance import closest
+from foilstudy.model.contact.followed import FollowedPairs
+from foilstudy.model.contact.options import BarrierContact
+from foilstudy.model.contact.planes import RingPlanes
 from foilstudy.model.contact.surface import triangulation
+from foilstudy.model.contact.term import SelfContact
 from foilstudy.model.foil import Foil
 from foilstudy.model.patch import Patch, knot_points
 from foilstudy.model.shell.intersection import self_crossing_share
 from foilstudy.model.shell.shell import Shell
 from foilstudy.pipeline.crumple import crumple
 from foilstudy.pipeline.method import Mesh, Method
-from foilstudy.pipeline.touching import crumple_touching
 from foilstudy.solve.paths.newton import NewtonPath
 from foilstudy.solve.paths.relaxation import RelaxationPath
 from foilstudy.solve.problem import Problem
 from foilstudy.solve.relaxation.mass.spectral import SpectralMassScaling
-from foilstudy.solve.relaxation.mass.touching import TouchingMassScaling
+from foilstudy.solve.relaxation.mass.touching import minding_contact
 from foilstudy.solve.relaxation.scheme import Scheme
 
 THICKNESS, REACH = 1e-4, 1e-3
@@ -226,15 +227,27 @@ def brute_force(surface, knots, distance):
     return near
 
 
-def test_no_pair_is_missed():
-    patch = Patch(10, 5, 0.02, 0.02)
+def test_no_pair_is_missed_however_the_knots_move():
+    patch = Patch(10, 6, 0.02, 0.02)
     surface = triangulation(patch)
-    knots = np.random.default_rng(3).uniform(0, 0.06, (surface.count, 3))
-    for distance in (2e-3, 9e-3):
-        pairs, touching = candidates(surface, knots, distance)
-        found = [(i >= touching, *map(int, pair)) for i, pair in enumerate(pairs)]
-        assert len(found) == len(set(found)) > 20
-        assert set(found) == brute_force(surface, knots, distance)
+    rng = np.random.default_rng(3)
+    knots = rng.uniform(0, 0.06, (surface.count, 3))
+    thickness, reach, skin = 1e-3, 2e-3, 4e-3
+    followed = FollowedPairs(surface, knots, thickness, reach, skin)
+    drift = 3e-3 * rng.standard_normal((surface.count, 3))
+    found = 0
+    for size in (1e-2, 3e-2, 0.1, 0.3, 0.01, 2.0):
+        motion = size * drift + size * np.array([0.05, 0.0, -0.02])  # of all, too
+        followed.share(motion, 0.9)
+        knots = knots + motion
+        followed.move(knots)
+        active = followed.active()
+        pairs, edges = followed.pairs[active], followed.edges[active]
+        near = [(bool(e), *map(int, pair)) for e, pair in zip(edges, pairs, strict=True)]
+        assert len(near) == len(set(near))
+        assert set(near) == brute_force(surface, knots, thickness + reach)
+        found += len(near)
+    assert found > 100
 
 
 # ------------------------------------------------------------------ refusals
@@ -251,16 +264,16 @@ def test_a_start_that_crosses_itself_is_refused():
 def test_sheets_within_their_thickness_are_refused():
     sheet, points = flattened(thickness=1.5e-3)
     with pytest.raises(Refusal, match="nearer than its thickness"):
-        SelfContact(sheet.section, Contact()).force(points, np.empty_like(points))
+        SelfContact(sheet.section).force(points, np.empty_like(points))
 
 
 def test_a_reach_too_large_for_the_mesh_is_refused():
     sheet = imperfect_sheet(10e-3)
     with pytest.raises(Refusal, match=r"larger elements than 9.97 mm; reduce the reach to 4 mm"):
-        SelfContact(sheet.section, Contact(reach=5e-3))
+        SelfContact(sheet.section, reach=5e-3)
     thick = replace(sheet.section, thickness=8e-3)
     with pytest.raises(Refusal, match="take a coarser mesh"):
-        SelfContact(thick, Contact(reach=1e-3))
+        SelfContact(thick, reach=1e-3)
 
 
 def test_a_way_through_the_sheet_has_infinite_energy(pressed):
@@ -277,7 +290,8 @@ def test_a_way_through_the_sheet_has_infinite_energy(pressed):
 
 
 def touching_mass(term, sheet):
-    return TouchingMassScaling().start(Problem(sheet, term))
+    problem = Problem(sheet, term)
+    return minding_contact(SpectralMassScaling().start(problem), problem)
 
 
 def test_a_step_that_would_cross_is_shortened_with_its_momentum(pressed):
@@ -342,6 +356,7 @@ def test_factor_on_the_mass_keeps_the_step_stable(pressed):
 # ------------------------------------------------------------------ crumples
 
 METHOD = Method(RelaxationPath(ramp_steps=400))
+TOUCHING = replace(METHOD, contact=BarrierContact())
 MESH = Mesh(14e-3)
 
 
@@ -352,7 +367,7 @@ def foil_of(overlength):
 def test_where_nothing_comes_near_the_crumple_is_the_same_to_the_last_bit():
     foil = foil_of(0.15)
     without = crumple(foil, MESH, method=METHOD)
-    touching = crumple_touching(foil, MESH, method=METHOD)
+    touching = crumple(foil, MESH, method=TOUCHING)
     assert touching.status == "converged"
     assert np.array_equal(touching.points, without.points)
     assert touching.arrival.hessians == without.arrival.hessians
@@ -360,7 +375,7 @@ def test_where_nothing_comes_near_the_crumple_is_the_same_to_the_last_bit():
 
 @pytest.fixture(scope="module")
 def touching():
-    return crumple_touching(foil_of(1.5), MESH, method=METHOD)
+    return crumple(foil_of(1.5), MESH, method=TOUCHING)
 
 
 def test_a_crumple_that_would_cross_itself_touches_instead(touching):
@@ -368,8 +383,8 @@ def test_a_crumple_that_would_cross_itself_touches_instead(touching):
     assert touching.status == "converged", touching.message
     assert touching.arrival.residual <= 1e-8
     assert touching.arrival.negative_eigenvalues == 0
-    assert touching.crossing_share() == 0.0
-    assert touching.bracket().closed > 0
+    assert crumple_share(touching) == 0.0
+    assert touching.contact_bracket().closed > 0
     again = touching.settled()
     assert again.status == "converged"
     assert np.abs(again.points - touching.points).max() < 1e-6
@@ -380,7 +395,7 @@ def crumple_share(crumpled):
 
 
 def test_contacts_stiffen_in_their_order(touching):
-    bracket = touching.bracket()
+    bracket = touching.contact_bracket()
     assert np.allclose(bracket.ignored, touching.stiffness(), rtol=1e-6)
     for direction in range(2):
         axial_or_radial = [
@@ -392,11 +407,130 @@ def test_contacts_stiffen_in_their_order(touching):
 
 
 def test_what_contact_cannot_keep_is_refused():
-    foil = foil_of(0.15)
+    foil, contact = foil_of(0.15), BarrierContact()
     with pytest.raises(Refusal, match="coarsenings of the ramp to 0"):
-        crumple_touching(foil, replace(MESH, ramp_coarsenings=1))
+        crumple(foil, replace(MESH, ramp_coarsenings=1), method=TOUCHING)
     with pytest.raises(Refusal, match="not by the path newton"):
-        crumple_touching(foil, MESH, method=Method(NewtonPath()))
+        crumple(foil, MESH, method=Method(NewtonPath(), contact=contact))
     scheme = Scheme.named("spectral", "kinetic")
     with pytest.raises(Refusal, match="use adaptive_viscous"):
-        crumple_touching(foil, MESH, method=Method(RelaxationPath(scheme=scheme)))
+        crumple(foil, MESH, method=Method(RelaxationPath(scheme=scheme), contact=contact))
+
+
+def test_springs_resist_no_rigid_motion(pressed):
+    term, points = pressed
+    rigid = [np.broadcast_to(np.eye(3)[k][:, None, None], points.shape) for k in range(3)]
+    rigid += [np.cross(np.eye(3)[k], points, axisb=0, axisc=0) for k in range(3)]
+    for stuck in (False, True):
+        springs = term.spring_tangent(points, 1e5, stuck)
+        assert np.linalg.eigvalsh(springs[:72, :72].toarray()).min() > -1e-6
+        for motion in rigid:
+            forces = springs @ np.moveaxis(motion, 0, -1).ravel()
+            assert np.abs(forces).max() < 1e-9 * abs(springs).max() * np.abs(motion).max()
+    # a whole sheet that slides along the other one: nothing along the gaps, much where it sticks
+    along = np.zeros_like(points)
+    along[2] = points[1] > 0
+    work = [
+        np.moveaxis(along, 0, -1).ravel() @ (term.spring_tangent(points, 1e5, stuck) @ slid)
+        for stuck in (False, True)
+        for slid in (np.moveaxis(along, 0, -1).ravel(),)
+    ]
+    assert work[1] > 1e2 * work[0] > 0
+
+
+def test_the_barrier_is_that_of_the_toolkit_of_its_authors(pressed):
+    ipctk = pytest.importorskip("ipctk", reason="the toolkit is no requirement of this project")
+    term, points = pressed
+    surface = triangulation(Patch(24, 6, np.pi * DIAMETER / 24, 0.02))
+    force = np.empty_like(points)
+    energy = term.force(points, force)[0]
+    knots, rest = (np.asfortranarray(k) for k in (surface.knots(points), term._rest))
+    mesh = ipctk.CollisionMesh(
+        rest,
+        np.asfortranarray(surface.edges.astype(np.int32)),
+        np.asfortranarray(surface.triangles.astype(np.int32)),
+    )
+    collisions = ipctk.NormalCollisions()
+    collisions.build(mesh, knots, term.reach, dmin=term.thickness)
+    potential = ipctk.BarrierPotential(term.reach, 1.0)
+    scale = term._size / term._span**2  # theirs is of squared distances, not of shares of a span
+    assert scale * potential(collisions, mesh, knots) == pytest.approx(energy, rel=1e-12)
+    theirs, ours = np.asarray(potential.gradient(collisions, mesh, knots)), np.empty_like(points)
+    surface.gathered(scale * theirs.reshape(-1, 3), ours)
+    assert np.abs(ours - force).max() < 1e-11 * np.abs(force).max()
+    spread = surface.spread()
+    hessian = spread.T @ (scale * potential.hessian(collisions, mesh, knots)) @ spread
+    tangent = term.tangent(points)
+    assert abs(hessian - tangent).max() < 1e-11 * abs(tangent).max()
+
+
+# ------------------------------------------------------------------ the planes of the rings
+
+
+@pytest.fixture(scope="module")
+def leaning():
+    """A cylinder whose foil bulges onto the planes of its rings, and the term of these planes."""
+    patch = Patch(24, 6, np.pi * DIAMETER / 24, 0.02)
+    angle = 2 * np.pi * (np.arange(24) + 0.5) / 24
+    height = 0.02 * (np.arange(patch.rows) - 0.5)
+    points = np.empty(patch.shape)
+    bulge = 0.1 * np.ones(patch.rows)
+    bulge[3:-3] = 0.12
+    height[2:4], height[-4:-2] = 1e-3, 0.12 - 1e-3
+    points[0] = bulge[:, None] * np.cos(angle)
+    points[1] = bulge[:, None] * np.sin(angle)
+    points[2] = height[:, None]
+    sheet = Shell.elastic(patch, points, FEP, 1e-3)
+    points = points + 2e-4 * np.random.default_rng(2).standard_normal(points.shape)
+    return sheet, RingPlanes(sheet.section), points
+
+
+def test_planes_push_by_the_derivatives_of_their_energy(leaning):
+    _, term, points = leaning
+    force, scratch = np.empty_like(points), np.empty_like(points)
+    assert term.force(points, force)[0] > 0
+    tangent = term.tangent(points)
+    assert abs(tangent - tangent.T).max() < 1e-12 * abs(tangent).max()
+    for seed in range(3):
+        way = np.random.default_rng(seed).standard_normal(points.shape)
+        step, other = 1e-8, np.empty_like(points)
+        ahead = term.force(points + step * way, scratch)[0]
+        behind = term.force(points - step * way, other)[0]
+        assert (ahead - behind) / (2 * step) == pytest.approx(np.sum(force * way), rel=1e-5)
+        slope = np.moveaxis(scratch - other, 0, -1).ravel() / (2 * step)
+        expected = tangent @ np.moveaxis(way, 0, -1).ravel()
+        assert np.linalg.norm(slope - expected) < 1e-5 * np.linalg.norm(expected)
+
+
+def test_planes_move_and_turn_with_their_rings(leaning):
+    _, term, points = leaning
+    force, turned_force = np.empty_like(points), np.empty_like(points)
+    energy = term.force(points, force)[0]
+    turn = rotation([1, 2, 3], 0.9)
+    turned = np.einsum("ij,jrc->irc", turn, points) + np.array([0.1, -0.2, 0.3])[:, None, None]
+    assert term.force(turned, turned_force)[0] == pytest.approx(energy, rel=1e-9)
+    expected = np.einsum("ij,jrc->irc", turn, force)
+    assert np.abs(turned_force - expected).max() < 1e-8 * np.abs(force).max()
+    # all that the planes take from the foil, their rings get
+    arms, forces = points.reshape(3, -1).T, force.reshape(3, -1).T
+    assert np.abs(forces.sum(axis=0)).max() < 1e-10 * np.abs(forces).max()
+    assert np.abs(np.cross(arms, forces).sum(axis=0)).max() < 1e-10 * np.abs(forces).max()
+
+
+def test_nothing_goes_beyond_the_planes(leaning):
+    sheet, _, points = leaning
+    term, force = RingPlanes(sheet.section), np.empty_like(points)
+    term.force(points, force)
+    knots, down = term.knots(), np.zeros_like(term.knots())
+    down[24:-24, 2] = -1e-2
+    share = term.passable_share(down, 0.9)
+    normal = np.cross(knots[8] - knots[0], knots[16] - knots[0])
+    gaps = (knots[24:-24] - knots[0]) @ normal / np.linalg.norm(normal) - term.half
+    moved = gaps + share * down[24:-24] @ normal / np.linalg.norm(normal)
+    assert 0 < share < 0.1
+    assert (moved / gaps).min() == pytest.approx(0.1, rel=1e-9)
+    beyond = points.copy()
+    beyond[2, 3] -= 1e-2
+    assert np.isinf(term.force(beyond, force)[0])
+    with pytest.raises(Refusal, match="beyond the plane of a ring"):
+        RingPlanes(sheet.section).force(beyond, force)

@@ -40,6 +40,7 @@ REGISTRIES = {
     "export format": "export.formats",
     "surrounding air": "measure.choices",
     "enclosed air": "measure.choices",
+    "contact": "model.contact",
 }
 """By kind, the modules that hold them."""
 NOT_IN_TASKS = {

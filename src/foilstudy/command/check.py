@@ -83,6 +83,11 @@ def _resolved(study: StudyConfig) -> Iterator[tuple[str, str]]:
         f"most {relaxation.relaxation_steps_max} after it, to a residual of "
         f"{relaxation.residual_tolerance:g}",
     )
+    if study.contact.kind != "none":
+        reach = study.contact.reach_mm
+        planes = ", and the planes of the rings" if study.contact.ring_planes else ""
+        words = "up to 1 mm" if reach is None else f"{reach:g} mm"
+        yield "contact", f"{study.contact.kind} of {words} between parts of the foil{planes}"
     stiffness = study.stiffness
     demand = (
         "" if stiffness.error_percent is None else f"to {stiffness.error_percent:g} %, at most "

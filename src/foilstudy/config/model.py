@@ -15,6 +15,7 @@ from foilstudy.model.supports.moves import poses
 
 from .accuracy import ACCURACIES, STANDARD, Accuracy, completed
 from .air import Air
+from .contact import Contact, ContactUse, contact_problems
 from .export import Export
 from .installation import moves_of
 from .isolation import Isolation
@@ -133,6 +134,9 @@ class StudyConfig(Section):
     installation: Installation = Field(
         default_factory=Installation, description="How the foil is fitted."
     )
+    contact: Contact = Field(
+        default_factory=Contact, description="What parts of the foil do that come near each other."
+    )
     method: Method = Field(default_factory=Method, description="Strategies of crumpling.")
     stiffness: Stiffness = Field(default_factory=Stiffness, description="Static stiffness.")
     dynamics: Dynamics = Field(default_factory=Dynamics, description="Dynamic stiffness.")
@@ -195,6 +199,8 @@ class StudyConfig(Section):
         problems += self._thickness_problems()
         problems += self._installation_problems()
         problems += self._specimen_problems()
+        if not problems:  # its meshes are there
+            problems += self._contact_problems()
         problems += _duplicates("sweep.thickness_um", self.sweep.thickness_um, thickness_id)
         if self.sweep.reference_height_mm is not None:
             problems += _duplicates(
@@ -286,6 +292,27 @@ class StudyConfig(Section):
                 "relaxation."
             )
 
+    def _contact_problems(self) -> Iterator[str]:
+        use = ContactUse(
+            self.sheet.diameter_mm,
+            self.reference_heights_mm,
+            {each: self.mesh_of(each).element_size_mm for each in self.thicknesses_um},
+            self.mesh.ramp_coarsenings,
+            self.stiffness.relaxed_refinements,
+            self.method,
+        )
+        yield from contact_problems(self.contact, use)
+        if self.contact.kind != "none" and self.installation.waiting_hours:
+            yield (
+                "installation.waiting_hours lets stress go, and with it the stiffness of closed "
+                "contacts; remove it, or set contact.kind: none."
+            )
+        if self.contact.kind != "none" and self.imperfection.removal != "never":
+            yield (
+                "imperfection.removal is after_buckling, which contact does not know of; remove "
+                "it, or set contact.kind: none."
+            )
+
     def _size_problems(self) -> Iterator[str]:
         number = len(self.thicknesses_um) * len(self.reference_heights_mm) * len(self.seeds)
         if number > REALISATIONS_MAX:
@@ -372,7 +399,12 @@ class StudyConfig(Section):
 
         Then their true stiffness is measured; of elastic ones the pre-stressed one is that.
         """
-        return self.yields or self.installation.waiting_hours > 0
+        return (
+            self.yields
+            or self.installation.waiting_hours > 0
+            or self.contact.kind != "none"
+            or self.specimen.gravity_m_s2 != 0
+        )
 
     @property
     def yields(self) -> bool:
@@ -434,6 +466,7 @@ class StudyConfig(Section):
             mesh=self.mesh_of(cell.thickness_um),
             relaxation=self.relaxation_of(cell.thickness_um),
             installation=self.installation,
+            contact=self.contact,
             method=self.method,
             thickness_um=cell.thickness_um,
             reference_height_mm=cell.reference_height_mm,

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 from foilstudy.config.air import Air as AirSection
+from foilstudy.config.contact import Contact as ContactSection
 from foilstudy.config.installation import moves_of
 from foilstudy.config.mesh import Mesh as MeshSection
 from foilstudy.config.sections import Dynamics
@@ -12,6 +14,7 @@ from foilstudy.config.tasks import CrumpleTask
 from foilstudy.measure.air.protocols import Air
 from foilstudy.measure.choices import AIRS, ENCLOSURES, STRESS_REMOVALS, STRUCTURAL_DAMPINGS
 from foilstudy.measure.dynamics import DynamicsOptions
+from foilstudy.model.contact import CONTACTS, Contact
 from foilstudy.model.foil import Imperfection
 from foilstudy.pipeline.crumpled import Recipe
 from foilstudy.pipeline.method import Mesh, Method
@@ -55,14 +58,30 @@ def method_of(task: CrumpleTask) -> Method:
     )
     if task.installation.moves:
         path = replace(path, moves=moves_of(task.installation))
-    removal = STRESS_REMOVALS[method.stress_removal]()
-    return Method(path, removal, 3600 * task.installation.waiting_hours)
+    return Method(
+        path,
+        STRESS_REMOVALS[method.stress_removal](),
+        contact_of(task.contact),
+        3600 * task.installation.waiting_hours,
+    )
 
 
 def air_of(section: AirSection) -> Air:
     """What surrounds the foil in its dynamics."""
     enclosure = ENCLOSURES[section.enclosed].under(section.pressure_kpa * 1e3)
     return AIRS[section.kind].of(section.density_kg_m3, enclosure)
+
+
+def contact_of(section: ContactSection) -> Contact:
+    """What parts of the foil do that come near each other."""
+    if section.kind == "none":
+        return CONTACTS[section.kind]()
+    given: dict[str, Any] = {"ring_planes": section.ring_planes}
+    if section.reach_mm is not None:
+        given["reach"] = section.reach_mm * 1e-3
+    if section.stiffness is not None:
+        given["stiffness"] = section.stiffness
+    return CONTACTS[section.kind](**given)
 
 
 def dynamics_of(section: Dynamics) -> DynamicsOptions:

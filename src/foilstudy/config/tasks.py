@@ -9,6 +9,7 @@ from __future__ import annotations
 from pydantic import Field
 
 from .air import Air
+from .contact import Contact
 from .mesh import Mesh
 from .sections import (
     Dynamics,
@@ -49,6 +50,7 @@ class CrumpleTask(_Task):
     mesh: Mesh
     relaxation: Relaxation
     installation: Installation
+    contact: Contact
     method: Method
 
 

@@ -47,8 +47,8 @@ def crumple(
     Raises
     ------
     Refusal
-        If the foil fits its gap as it is, the mesh cannot follow the imperfection, or a name is
-        unknown.
+        If the foil fits its gap as it is, the mesh cannot follow the imperfection, a name is
+        unknown, or contact cannot be kept.
     """
     start = uncrumpled(foil, mesh, imperfection, method)
     path, coarsenings = start.method.path, start.recipe.mesh.ramp_coarsenings
@@ -138,7 +138,34 @@ def uncrumpled(
             f"the path {recipe.method.path.kind} begins in equilibrium, between true rings; use "
             "relaxation, or leave out ellipticity and tilt."
         )
+    if recipe.method.touches:
+        _see_that_contact_is_kept(recipe)
     patch = recipe.mesh.of_ramp().patch(foil)
     reference = imperfect_cylinder(patch, foil, recipe.imperfection)
     element = recipe.mesh.element_at_work()
     return Crumpled(foil, patch, reference, reference, element, recipe)
+
+
+def _see_that_contact_is_kept(recipe: Recipe) -> None:
+    path = recipe.method.path
+    refuse_removal(recipe.imperfection, "a foil whose parts touch")
+    if recipe.method.waiting:
+        raise Refusal(
+            "stress that relaxes would take the stiffness of closed contacts with it; leave out "
+            "the waiting or the contact."
+        )
+    if recipe.mesh.ramp_coarsenings:
+        raise Refusal(
+            "a crumple with contact cannot be pushed together on a coarser mesh, as it may cross "
+            "itself on the finer one; set the coarsenings of the ramp to 0."
+        )
+    if not isinstance(path, RelaxationPath):
+        raise Refusal(
+            f"contact is kept by relaxation, not by the path {path.kind}; use relaxation."
+        )
+    for damping in (path.scheme.ramp_damping, path.scheme.relaxation_damping):
+        if damping.kind.startswith("kinetic"):
+            raise Refusal(
+                f"a damping of kind {damping.kind} steps back without regard to contact; use "
+                "adaptive_viscous."
+            )

@@ -17,6 +17,12 @@ from foilstudy.measure.air.protocols import Air
 from foilstudy.measure.air.vacuum import Vacuum
 from foilstudy.measure.dynamics import DynamicsOptions
 from foilstudy.measure.stiffness import prestressed_stiffness
+from foilstudy.measure.stiffness.contacts import (
+    ContactBracket,
+    Touching,
+    contact_bracket,
+    contact_springs,
+)
 from foilstudy.measure.stiffness.stress_removal import Relieved, StressRemoval
 from foilstudy.measure.verdicts import Verdict, verdicts
 from foilstudy.model.foil import Foil, Imperfection
@@ -34,7 +40,7 @@ from foilstudy.pipeline.static import (
 from foilstudy.pipeline.structures import in_air, stress_free_structure
 from foilstudy.pipeline.vibration import Vibration, vibration_of
 from foilstudy.solve.paths import Arrival
-from foilstudy.solve.problem import Problem
+from foilstudy.solve.problem import Problem, Term
 
 
 @dataclass(frozen=True)
@@ -132,6 +138,14 @@ class Crumpled(Shape):
         """Share of its stress that waiting has left."""
         return self.rest.stress_kept if self.rest else 1.0
 
+    def contacts(self) -> tuple[Touching, ...]:
+        """The terms of contact, fresh; none where parts pass through each other."""
+        return self.method.contact.terms(self.stressed.section)
+
+    def terms(self) -> tuple[Term, ...]:
+        """See `Shape`; contact comes last."""
+        return *super().terms(), *self.contacts()
+
     def problem(self) -> Problem:
         """The potential energy of the foil, at the state in which it has arrived."""
         problem = super().problem()
@@ -220,12 +234,25 @@ class Crumpled(Shape):
         """
         return prestressed_stiffness(self.problem(), self.points)
 
+    def contact_bracket(self) -> ContactBracket:
+        """Stress-free stiffness between what closed contacts may do, see `ContactBracket`.
+
+        Raises
+        ------
+        SolveError
+            If a stiffness is singular.
+        """
+        return contact_bracket(self.relieved(), self.contacts(), self.points)
+
     def verdicts(self) -> tuple[Verdict, ...]:
         """What the numbers of the crumple say of it, see `foilstudy.measure.verdicts`."""
         return verdicts(evidence_of(self, self.arrival))
 
     def vibration(
-        self, options: DynamicsOptions | None = None, air: Air | None = None
+        self,
+        options: DynamicsOptions | None = None,
+        air: Air | None = None,
+        contacts: str = "ignored",
     ) -> Vibration:
         """Dynamic stiffness, eigenfrequencies and mode shapes of the stress-free shape.
 
@@ -234,13 +261,16 @@ class Crumpled(Shape):
         options : DynamicsOptions, optional
         air : Air, optional
             What surrounds it; nothing if left out.
+        contacts : str
+            What closed contacts do, a name of `ContactBracket`.
 
         Raises
         ------
         SolveError
             If a factorisation, the reduction or a mode search fails.
         """
-        structure = in_air(self, stress_free_structure(self), air or Vacuum())
+        springs = contact_springs(contacts, self.contacts(), self.points)
+        structure = in_air(self, stress_free_structure(self, springs), air or Vacuum())
         return vibration_of(structure, options or DynamicsOptions())
 
     def plot(self, ax=None):
@@ -306,6 +336,7 @@ class Crumpled(Shape):
             attributes["status"], attributes["message"], points,
             float(values["equilibrium_residual"]), _count(values["negative_eigenvalues"]),
             int(values["steps"]), int(values["newton_steps"]), int(values["hessians"]), None,
+            shortened_steps=int(values.get("contact_shortened_steps", 0)),
         )  # fmt: skip
         element = recipe.mesh.element_at_work()
         crumpled = cls(foil, patch, points, reference, element, recipe, arrival)

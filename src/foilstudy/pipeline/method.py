@@ -9,6 +9,8 @@ from foilstudy.base.ranges import require_number
 from foilstudy.base.spec import choice_field
 from foilstudy.measure.choices import STRESS_REMOVALS
 from foilstudy.measure.stiffness.stress_removal import Reset, StressRemoval
+from foilstudy.model.contact import CONTACTS, Contact
+from foilstudy.model.contact.none import NoContact
 from foilstudy.model.foil import Foil
 from foilstudy.model.mesh_size import element_size_for
 from foilstudy.model.patch import Patch
@@ -77,16 +79,25 @@ class Method:
         From the cylinder to the equilibrium, with all its numbers.
     stress_removal : StressRemoval
         What makes the crumple stress-free before it is measured.
+    contact : Contact
+        What parts of the foil do that come near each other.
     waiting : float
         How long the foil then stands before it is measured, s.
     """
 
     path: Path = choice_field(PATHS, RelaxationPath)
     stress_removal: StressRemoval = choice_field(STRESS_REMOVALS, Reset)
+    contact: Contact = choice_field(CONTACTS, NoContact)
     waiting: float = 0.0
 
     def __post_init__(self):
         require_number("waiting time of a method", self.waiting, "s", least=0)
 
     def __repr__(self) -> str:
-        return f"<Method: path {self.path.kind}, stress removal {self.stress_removal.kind}>"
+        kinds = f"path {self.path.kind}, stress removal {self.stress_removal.kind}"
+        return f"<Method: {kinds}, contact {self.contact.kind}>"
+
+    @property
+    def touches(self) -> bool:
+        """Whether parts of the foil may touch."""
+        return not isinstance(self.contact, NoContact)

@@ -19,7 +19,7 @@ from foilstudy.model.specimen.clamps import clamped_shape
 from foilstudy.model.specimen.variation import variation_of
 from foilstudy.model.specimen.weight import weight_of
 from foilstudy.model.supports.loads import Loading
-from foilstudy.solve.problem import Problem
+from foilstudy.solve.problem import Problem, Term
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -54,14 +54,18 @@ class Shape:
         section = Section(self.patch, self.reference, self.foil.thickness, law, varied)
         return Shell(section, self.element)
 
-    def problem(self) -> Problem:
-        """The potential energy of the foil: its shell, what its law adds to that, its weight."""
-        shell, specimen = self.stressed, self.foil.specimen
-        terms = shell.section.law.terms(shell)
+    def terms(self) -> tuple[Term, ...]:
+        """What the potential energy has beside that of the elastic shell: its law's, its weight."""
+        section, specimen = self.stressed.section, self.foil.specimen
+        terms = section.law.terms(self.stressed)
         if specimen.gravity:
-            terms += (Loading(weight_of(shell.section, specimen.gravity)),)
-        problem = Problem(shell, *terms)
-        problem.beginning = clamped_shape(specimen.clamps, self.reference)
+            terms += (Loading(weight_of(section, specimen.gravity)),)
+        return terms
+
+    def problem(self) -> Problem:
+        """The potential energy of the foil."""
+        problem = Problem(self.stressed, *self.terms())
+        problem.beginning = clamped_shape(self.foil.specimen.clamps, self.reference)
         return problem
 
     def relieved(self, removal: StressRemoval | None = None) -> Relieved:

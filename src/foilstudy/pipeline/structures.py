@@ -16,8 +16,15 @@ from foilstudy.model.shell.tangent import mass_matrix
 from foilstudy.pipeline.shape import Shape
 
 
-def stress_free_structure(shape: Shape) -> Structure:
+def stress_free_structure(shape: Shape, added: sparse.csr_matrix | None = None) -> Structure:
     """The crumpled shape without its stresses, but for those that their removal has left.
+
+    Parameters
+    ----------
+    shape : Shape
+    added : csr_matrix, optional
+        Stiffness of what else holds the foil, such as springs for its contacts, on all control
+        points, N/m; a rigid motion costs it nothing.
 
     Raises
     ------
@@ -27,7 +34,10 @@ def stress_free_structure(shape: Shape) -> Structure:
     relieved = shape.relieved()
     left = isinstance(relieved, Residual)  # what has stress resists its own turning
     motions = _rigid_motions(shape)[:, : 3 if left else 6]
-    return Structure.assembled(_relieved_stiffness(shape, relieved), mass(shape), motions)
+    stiffness = _relieved_stiffness(shape, relieved)
+    if added is not None:
+        stiffness += InterfaceSystem.split(added, Rings.of(shape.patch, shape.points))
+    return Structure.assembled(stiffness, mass(shape), motions)
 
 
 def prestressed_structure(shape: Shape) -> Structure:

@@ -21,7 +21,7 @@ from foilstudy.model.patch import RING_ROWS, Patch
 from foilstudy.model.shell.held import held_blocks
 from foilstudy.model.shell.shell import Shell
 
-__all__ = ["Following", "Lasting", "Problem", "Term"]
+__all__ = ["Following", "Lasting", "Problem", "Telling", "Term"]
 
 
 class Term(Protocol):
@@ -66,12 +66,17 @@ class Term(Protocol):
 
 
 @runtime_checkable
-class Lasting(Term, Protocol):
-    """A term whose state can be kept in a record and taken to a finer mesh."""
+class Telling(Term, Protocol):
+    """A term of which there is more to know than its energy."""
 
     def numbers(self, state: Any) -> dict[str, float]:
-        """What is worth knowing of the state, by the names of quantities."""
+        """What is worth knowing of the state, or of the last shape, by the names of quantities."""
         ...
+
+
+@runtime_checkable
+class Lasting(Telling, Protocol):
+    """A term whose state can be kept in a record and taken to a finer mesh."""
 
     def recorded(self, state: Any) -> dict[str, np.ndarray]:
         """The state as arrays, by the names of quantities."""
@@ -214,10 +219,10 @@ class Problem:
         return tangent[owned:-owned, owned:-owned].tocsr()
 
     def numbers(self) -> dict[str, float]:
-        """What terms whose memory lasts say of their state, by the names of quantities."""
+        """What terms say of their state and of the last shape, by the names of quantities."""
         values: dict[str, float] = {}
         for term, state in zip(self.terms, self.state, strict=True):
-            if isinstance(term, Lasting):
+            if isinstance(term, Telling):
                 values |= term.numbers(state)
         return values
 

@@ -29,6 +29,13 @@ class InterfaceSystem:
     def __repr__(self) -> str:
         return f"<InterfaceSystem: {self.interior.shape[0]} interior unknowns>"
 
+    def __add__(self, other: InterfaceSystem) -> InterfaceSystem:
+        return InterfaceSystem(
+            (self.interior + other.interior).tocsr(),
+            self.coupling + other.coupling,
+            self.interface + other.interface,
+        )
+
     @classmethod
     def split(cls, matrix: sparse.csr_matrix, rings: Rings) -> InterfaceSystem:
         """Split a matrix on all control points by the rings."""

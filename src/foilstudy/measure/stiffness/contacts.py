@@ -1,4 +1,4 @@
-"""Stress-free stiffness of a crumple whose parts touch: a bracket, never one number.
+"""What closed contacts add to the stress-free stiffness of a crumple: a bracket, never one number.
 
 What a closed contact does in a small motion depends on what model and data do not hold: it may open
 (as if it were not there), resist approach, or stick. Springs resist opening, too, and so overstate
@@ -7,18 +7,48 @@ a contact that may open.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
+import scipy.sparse as sparse
 
+from foilstudy.base.errors import Refusal
 from foilstudy.measure.stiffness.condensation import InterfaceSystem, condense
 from foilstudy.measure.stiffness.directional import fixed_stiffness
 from foilstudy.measure.stiffness.rings import Rings
 from foilstudy.measure.stiffness.stress_removal import Relieved
-from foilstudy.model.contact import SelfContact
+
+__all__ = ["CONTACT_SPRINGS", "ContactBracket", "Touching", "contact_bracket", "contact_springs"]
 
 _RIGID = 100.0
 """Stiffness of a rigid spring relative to E t/(1 - nu^2)."""
+
+CONTACT_SPRINGS = ("ignored", "normal", "rigid", "stuck")
+"""What closed contacts may do in a small motion, see `ContactBracket`."""
+
+
+class Touching(Protocol):
+    """A term of contact, by what is measured of it.
+
+    Attributes
+    ----------
+    membrane_stiffness : float
+        E t/(1 - nu^2) of the foil, N/m.
+    """
+
+    membrane_stiffness: float
+
+    def closed_at(self, points: np.ndarray) -> int:
+        """Contacts that are closed in a shape."""
+        ...
+
+    def spring_tangent(
+        self, points: np.ndarray, stiffness: float | None = None, stuck: bool = False
+    ) -> sparse.csr_matrix:
+        """Stiffness of these as springs, on all control points."""
+        ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,14 +76,46 @@ class ContactBracket:
     closed: int
 
 
-def contact_bracket(sheet: Relieved, contact: SelfContact, points: np.ndarray) -> ContactBracket:
+def contact_springs(
+    kind: str, contacts: Sequence[Touching], points: np.ndarray
+) -> sparse.csr_matrix | None:
+    """Stiffness of closed contacts on all control points, N/m; None where they add nothing.
+
+    Parameters
+    ----------
+    kind : str
+        One of `CONTACT_SPRINGS`.
+    contacts : sequence of Touching
+    points : ndarray, shape (3, rows, columns)
+        m.
+    """
+    if kind not in CONTACT_SPRINGS:
+        raise Refusal(
+            f"{kind!r} is not what closed contacts may do; use one of {', '.join(CONTACT_SPRINGS)}."
+        )
+    if kind == "ignored" or not contacts:
+        return None
+    springs = [
+        each.spring_tangent(
+            points,
+            None if kind == "normal" else _RIGID * each.membrane_stiffness,
+            kind == "stuck",
+        )
+        for each in contacts
+    ]
+    return sum(springs[1:], start=springs[0])
+
+
+def contact_bracket(
+    sheet: Relieved, contacts: Sequence[Touching], points: np.ndarray
+) -> ContactBracket:
     """The bracket of a relieved sheet.
 
     Parameters
     ----------
     sheet : Relieved
         Stress-free in the shape `points`.
-    contact : SelfContact
+    contacts : sequence of Touching
     points : ndarray, shape (3, rows, columns)
         m.
 
@@ -63,14 +125,14 @@ def contact_bracket(sheet: Relieved, contact: SelfContact, points: np.ndarray) -
         If a stiffness with held rings is singular.
     """
     tangent, rings = sheet.tangent(), Rings.of(sheet.patch, points)
-    rigid = _RIGID * contact.membrane_stiffness
+    closed = sum(each.closed_at(points) for each in contacts)
 
-    def stiffness(*spring: float | bool | None) -> np.ndarray:
-        matrix = tangent
-        if spring:
-            matrix = (tangent + contact.spring_tangent(points, *spring)).tocsr()
+    def stiffness(kind: str) -> np.ndarray:
+        springs = contact_springs(kind, contacts, points)
+        matrix = tangent if springs is None else (tangent + springs).tocsr()
         return fixed_stiffness(condense(InterfaceSystem.split(matrix, rings)).stiffness)
 
-    ignored = stiffness()
-    normal, held, stuck = stiffness(None, False), stiffness(rigid, False), stiffness(rigid, True)
-    return ContactBracket(ignored, normal, held, stuck, len(contact.closed()))
+    ignored = stiffness("ignored")
+    if not closed:
+        return ContactBracket(ignored, ignored, ignored, ignored, 0)
+    return ContactBracket(ignored, *map(stiffness, CONTACT_SPRINGS[1:]), closed)

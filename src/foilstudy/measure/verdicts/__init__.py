@@ -179,6 +179,7 @@ VERDICTS = (
         "self_crossing",
         "parts of the surface cross each other, as the model has no contact",
         lambda e: e.self_crossing_share > 0,
+        cure="let parts of the foil touch (contact.kind: barrier)",
     ),
     Verdict(
         "beyond_yield",

@@ -111,7 +111,7 @@ def pair_hessian(x, is_edges, full, thickness, span, a, change, w, out):
     uu = uv = vv = 0.0
     if is_edges:
         factor, first, second, uu, uv, vv = _factor(x, full)
-    _add_half_square(x, free, a, change, w, factor * slope * 2.0 / span, out)
+    add_half_square(x, free, a, change, w, factor * slope * 2.0 / span, out)
     along = factor * bend * 4.0 / (span * span)
     for i in range(12):
         for j in range(12):
@@ -132,7 +132,7 @@ def pair_hessian(x, is_edges, full, thickness, span, a, change, w, out):
 
 
 @njit(cache=True, error_model="numpy")
-def _add_half_square(x, free, a, change, w, weight, out):
+def add_half_square(x, free, a, change, w, weight, out):
     """Add the second derivative of d^2/2, times a weight."""
     for i in range(4):
         for j in range(4):

@@ -1,7 +1,7 @@
 """Pairs of a point and a triangle, and of two edges, that are near each other.
 
-Elements that are near are found by a grid of cells; then what belongs to the one is compared with
-what belongs to the other. The order of the pairs follows from the shape alone.
+What belongs to the one element is compared with what belongs to the other, of elements that are
+near each other in blocks that are.
 """
 
 from __future__ import annotations
@@ -12,13 +12,42 @@ from numba import njit
 from foilstudy.model.contact.distance import closest, edge_square
 from foilstudy.model.contact.surface import Triangulation
 
-_CELLS_MOST = 4_000_000
+
+class Balls:
+    """Balls around elements, triangles and edges, each as new as it was last asked for.
+
+    Parameters
+    ----------
+    surface : Triangulation
+    """
+
+    def __init__(self, surface: Triangulation):
+        self._surface = surface
+        members = surface.corners, surface.triangles, surface.edges
+        self.elements, self.triangles, self.edges = (
+            (np.empty((len(each), 3)), np.empty(len(each))) for each in members
+        )
+
+    def renew(self, knots: np.ndarray, elements: np.ndarray) -> None:
+        """Those of some elements and of what belongs to them; see `_touching`, `_crossing`."""
+        surface, count = self._surface, self._surface.count
+        whole = len(surface.triangles) // 2
+        inner = elements[elements < whole]
+        fill_balls(knots, surface.corners, elements, *self.elements)
+        halves = np.concatenate([inner, inner + whole])
+        fill_balls(knots, surface.triangles, halves, *self.triangles)
+        edges = np.concatenate([elements, inner + count, inner + count + whole])
+        fill_balls(knots, surface.edges, edges, *self.edges)
 
 
 def candidates(
-    surface: Triangulation, knots: np.ndarray, distance: float
-) -> tuple[np.ndarray, int]:
-    """All pairs nearer than a distance that do not share a knot.
+    surface: Triangulation,
+    knots: np.ndarray,
+    distance: float,
+    balls: Balls,
+    near: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """All pairs nearer than a distance that do not share a knot, of some pairs of elements.
 
     Parameters
     ----------
@@ -27,27 +56,29 @@ def candidates(
         m.
     distance : float
         m.
+    balls : Balls
+        Renewed for these elements.
+    near : ndarray of int, shape (element pairs, 2)
+        Two elements each.
 
     Returns
     -------
     pairs : ndarray of int, shape (pairs, 4)
-        Point and triangle first, then edges.
-    int
-        How many of the first kind there are.
+        Point and triangle, or two edges.
+    edges : ndarray of bool, shape (pairs,)
+        Which of the two.
+    source : ndarray of int, shape (pairs,)
+        The pair of elements that they come from.
     """
-    middles, radii = _balls(knots, surface.corners)
-    near = _near(middles, radii, distance)
-    triangle_balls, edge_balls = _balls(knots, surface.triangles), _balls(knots, surface.edges)
-    touching = _whole(
-        _touching, 2 * len(knots), near, knots, surface.triangles, *triangle_balls, distance
-    )
-    crossing = _whole(_crossing, 2 * len(knots), near, knots, surface.edges, *edge_balls, distance)
-    return np.concatenate([touching, crossing]), len(touching)
+    room = 64 + len(near) // 4
+    touching = whole(_touching, room, near, knots, surface.triangles, *balls.triangles, distance)
+    crossing = whole(_crossing, room, near, knots, surface.edges, *balls.edges, distance)
+    found = np.concatenate([touching, crossing])
+    return found[:, :4], np.arange(len(found)) >= len(touching), found[:, 4]
 
 
-def _whole(search, room, *arguments):
+def whole(search, room, *arguments, width=5):
     """All that a search finds, which begins anew where the room for it was too small."""
-    width = 2 if search is _near_balls else 4
     while True:
         found = np.empty((room, width), dtype=np.int64)
         room = search(*arguments, found)
@@ -55,17 +86,11 @@ def _whole(search, room, *arguments):
             return found[:room]
 
 
-def _balls(knots, members):
-    """Middle and radius of a ball around each set of knots."""
-    middles, radii = np.empty((len(members), 3)), np.empty(len(members))
-    _fill_balls(knots, members, middles, radii)
-    return middles, radii
-
-
 @njit(cache=True, error_model="numpy")
-def _fill_balls(knots, members, middles, radii):
-    count, width = members.shape
-    for b in range(count):
+def fill_balls(knots, members, which, middles, radii):
+    """Middle and radius of a ball around each of some sets of knots."""
+    width = members.shape[1]
+    for b in which:
         for c in range(3):
             total = 0.0
             for m in range(width):
@@ -81,30 +106,8 @@ def _fill_balls(knots, members, middles, radii):
         radii[b] = np.sqrt(most)
 
 
-def _near(middles, radii, distance):
-    """Pairs of balls that are near, the lower number first; shape (pairs, 2)."""
-    origin = middles.min(axis=0)
-    extent = middles.max(axis=0) - origin
-    side = float(radii.max()) + 0.5 * distance
-    side = max(side, float(np.cbrt(np.prod(np.maximum(extent, side)) / _CELLS_MOST)))
-    counts = (extent / side).astype(np.int64) + 1
-    cells = ((middles - origin) / side).astype(np.int64)
-    cell = (cells[:, 0] * counts[1] + cells[:, 1]) * counts[2] + cells[:, 2]
-    members = np.argsort(cell, kind="stable")
-    starts = np.concatenate([[0], np.cumsum(np.bincount(cell, minlength=np.prod(counts)))])
-    return _whole(
-        _near_balls, 32 * len(radii), middles, radii, radii.max() + distance,
-        origin, side, counts, starts, members, distance,
-    )  # fmt: skip
-
-
-@njit(cache=True)
-def _cell(value, origin, side, count):
-    return min(max(int((value - origin) / side), 0), count - 1)
-
-
 @njit(cache=True, error_model="numpy")
-def _apart(one, radius, other, other_radius, distance):
+def apart(one, radius, other, other_radius, distance):
     """Whether two balls are farther from each other than a distance."""
     square = 0.0
     for c in range(3):
@@ -112,32 +115,6 @@ def _apart(one, radius, other, other_radius, distance):
         square += way * way
     most = radius + other_radius + distance
     return square > most * most
-
-
-@njit(cache=True, error_model="numpy")
-def _near_balls(
-    middles, radii, beyond, origin, side, counts, starts, members, distance, found
-):  # fmt: skip
-    """Write the pairs of balls that are near, as far as there is room; return their number."""
-    first, last = np.empty(3, dtype=np.int64), np.empty(3, dtype=np.int64)
-    number = 0
-    for h in range(len(middles)):
-        for c in range(3):
-            reach = radii[h] + beyond
-            first[c] = _cell(middles[h, c] - reach, origin[c], side, counts[c])
-            last[c] = _cell(middles[h, c] + reach, origin[c], side, counts[c])
-        for i in range(first[0], last[0] + 1):
-            for j in range(first[1], last[1] + 1):
-                row = (i * counts[1] + j) * counts[2]
-                for place in range(starts[row + first[2]], starts[row + last[2] + 1]):
-                    b = members[place]
-                    if b <= h or _apart(middles[h], radii[h], middles[b], radii[b], distance):
-                        continue
-                    if number < len(found):
-                        found[number, 0] = h
-                        found[number, 1] = b
-                    number += 1
-    return number
 
 
 @njit(cache=True, error_model="numpy")
@@ -158,7 +135,7 @@ def _touching(near, knots, triangles, middles, radii, distance, found):
                 continue
             for half in range(2):
                 t = element + half * elements
-                if _apart(knots[p], 0.0, middles[t], radii[t], distance):
+                if apart(knots[p], 0.0, middles[t], radii[t], distance):
                     continue
                 if p == triangles[t, 0] or p == triangles[t, 1] or p == triangles[t, 2]:
                     continue
@@ -172,6 +149,7 @@ def _touching(near, knots, triangles, middles, radii, distance, found):
                         found[number, 0] = p
                         for m in range(3):
                             found[number, m + 1] = triangles[t, m]
+                        found[number, 4] = pair
                     number += 1
     return number
 
@@ -194,7 +172,7 @@ def _crossing(near, knots, edges, middles, radii, distance, found):
                 f = near[pair, 1] + (two > 0) * count + (two > 1) * elements
                 if two > 0 and near[pair, 1] >= elements:
                     break
-                if _apart(middles[e], radii[e], middles[f], radii[f], distance):
+                if apart(middles[e], radii[e], middles[f], radii[f], distance):
                     continue
                 low, high = min(e, f), max(e, f)
                 i, j, k, m = edges[low, 0], edges[low, 1], edges[high, 0], edges[high, 1]
@@ -204,5 +182,6 @@ def _crossing(near, knots, edges, middles, radii, distance, found):
                     if number < len(found):
                         found[number, 0], found[number, 1] = i, j
                         found[number, 2], found[number, 3] = k, m
+                        found[number, 4] = pair
                     number += 1
     return number

@@ -16,7 +16,7 @@ _ADVANCES = 50
 
 
 @njit(cache=True, error_model="numpy")
-def passable_share(knots, motion, pairs, touching, due, travel, thickness, share):
+def passable_share(knots, motion, pairs, edges, thickness, share):
     """Largest part of a straight motion, at most 1, in which no gap closes by more than a share.
 
     Parameters
@@ -24,12 +24,8 @@ def passable_share(knots, motion, pairs, touching, due, travel, thickness, share
     knots, motion : ndarray, shape (count, 3)
         m.
     pairs : ndarray of int, shape (pairs, 4)
-    touching : int
-        How many of them are a point and a triangle.
-    due : ndarray, shape (pairs,)
-        Travel up to which a pair is beyond the reach, m.
-    travel : float
-        Of all knots at the end of the motion, m.
+    edges : ndarray of bool, shape (pairs,)
+        Two edges, rather than a point and a triangle.
     thickness, share : float
 
     Returns
@@ -40,19 +36,17 @@ def passable_share(knots, motion, pairs, touching, due, travel, thickness, share
     a, change, w = np.empty(4), np.empty((2, 4)), np.empty(3)
     least = 1.0
     for p in range(len(pairs)):
-        if travel < due[p]:
-            continue
-        edges = p >= touching
+        of_edges = edges[p]
         for i in range(4):
             for c in range(3):
                 x[i, c] = knots[pairs[p, i], c]
                 v[i, c] = motion[pairs[p, i], c]
-        closing = _closing(v, 2 if edges else 1)
-        square, _ = closest(x, edges, a, change, w)
+        closing = _closing(v, 2 if of_edges else 1)
+        square, _ = closest(x, of_edges, a, change, w)
         gap = np.sqrt(square) - thickness
         if least * closing <= share * gap:
             continue
-        least = _advanced(x, v, edges, closing, gap, thickness, share, least, a, change, w)
+        least = _advanced(x, v, of_edges, closing, gap, thickness, share, least, a, change, w)
     return least
 
 

@@ -126,20 +126,60 @@ def _spread_to_four(forces, out):
                     out[c, j + 1, right] += quarter
 
 
+_STRIDE = 17
+
+
 @njit(cache=True, error_model="numpy")
 def largest_deviation(here, before):
-    """Largest distance between two states of points, beside the mean of all."""
-    mean = np.zeros(3)
-    for p in range(len(here)):
-        for c in range(3):
-            mean[c] += here[p, c] - before[p, c]
-    mean /= len(here)
+    """Bound of the distance between two states of points, beside a common motion, shape (n, 3).
+
+    Two points come nearer by twice of it at most, whatever the common motion is taken to be.
+    """
+    x = y = z = 0.0
+    number = 0
+    for p in range(0, len(here), _STRIDE):
+        x += here[p, 0] - before[p, 0]
+        y += here[p, 1] - before[p, 1]
+        z += here[p, 2] - before[p, 2]
+        number += 1
+    x, y, z = x / number, y / number, z / number
     most = 0.0
     for p in range(len(here)):
-        square = 0.0
-        for c in range(3):
-            way = here[p, c] - before[p, c] - mean[c]
-            square += way * way
+        dx = here[p, 0] - before[p, 0] - x
+        dy = here[p, 1] - before[p, 1] - y
+        dz = here[p, 2] - before[p, 2] - z
+        square = dx * dx + dy * dy + dz * dz
         if not square <= most:  # what is not a number goes through
             most = square
+    return np.sqrt(most)
+
+
+@njit(cache=True, error_model="numpy")
+def largest_control_deviation(here, before):
+    """The same of control points, shape (3, rows, columns); no knot deviates more."""
+    middle = here.shape[1] // 2
+    x = here[0, middle, 0] - before[0, middle, 0]
+    y = here[1, middle, 0] - before[1, middle, 0]
+    z = here[2, middle, 0] - before[2, middle, 0]
+    most = 0.0
+    for j in range(here.shape[1]):
+        for i in range(here.shape[2]):
+            dx = here[0, j, i] - before[0, j, i] - x
+            dy = here[1, j, i] - before[1, j, i] - y
+            dz = here[2, j, i] - before[2, j, i] - z
+            square = dx * dx + dy * dy + dz * dz
+            if not square <= most:
+                most = square
+    return np.sqrt(most)
+
+
+@njit(cache=True, error_model="numpy")
+def largest_motion(motion):
+    """Largest motion of a control point, shape (3, rows, columns)."""
+    most = 0.0
+    for j in range(motion.shape[1]):
+        for i in range(motion.shape[2]):
+            square = motion[0, j, i] ** 2 + motion[1, j, i] ** 2 + motion[2, j, i] ** 2
+            if not square <= most:
+                most = square
     return np.sqrt(most)

@@ -9,16 +9,19 @@ import scipy.sparse as sparse
 
 from foilstudy.base.errors import Refusal
 from foilstudy.model.contact.barrier import PARALLEL
-from foilstudy.model.contact.options import Contact
+from foilstudy.model.contact.followed import FollowedPairs
 from foilstudy.model.contact.pairs import (
-    FollowedPairs,
     exert,
     hessians,
-    spring_forces,
     springs,
 )
-from foilstudy.model.contact.surface import triangulation
-from foilstudy.model.patch import RING_ROWS
+from foilstudy.model.contact.sizes import reach_on, skin_on
+from foilstudy.model.contact.springs import STIFFNESS, Springs
+from foilstudy.model.contact.surface import (
+    largest_control_deviation,
+    largest_motion,
+    triangulation,
+)
 from foilstudy.model.shell.intersection import self_crossing_share
 from foilstudy.model.shell.section import Section
 
@@ -51,7 +54,7 @@ class Closed:
         return len(self.pairs)
 
 
-class SelfContact:
+class SelfContact(Springs):
     """Barrier between parts of a sheet that come near each other; without memory.
 
     A shape that crosses itself, or to which the straight way from the last shape with a finite
@@ -62,7 +65,10 @@ class SelfContact:
     ----------
     section : Section
         Of the sheet, on a closed patch.
-    contact : Contact, optional
+    reach : float, optional
+        m; see `sizes.reach_on`.
+    stiffness : float
+        See `options.BarrierContact`.
 
     Attributes
     ----------
@@ -79,20 +85,23 @@ class SelfContact:
 
     energy_names = ("contact",)
 
-    def __init__(self, section: Section, contact: Contact | None = None):
-        contact = contact or Contact()
+    def __init__(self, section: Section, reach: float | None = None, stiffness: float = STIFFNESS):
         material = section.law.material
         membrane = material.youngs_modulus * section.thickness / (1 - material.poisson_ratio**2)
         patch = section.patch
-        self._surface = triangulation(patch)
-        self._skin = contact.skin_on(patch, section.thickness)
+        super().__init__(triangulation(patch), membrane)
+        self.thickness = section.thickness
+        self.reach = reach_on(patch, section.thickness, reach)
+        self._skin = skin_on(patch, section.thickness, self.reach)
         self._far = _FAR * min(patch.size_around, patch.size_along)
-        self.thickness, self.reach = section.thickness, contact.reach
-        self._span = (section.thickness + contact.reach) ** 2 - section.thickness**2
-        self.membrane_stiffness = membrane
-        self._size = contact.stiffness * membrane * contact.reach**2
+        self._span = (self.thickness + self.reach) ** 2 - self.thickness**2
+        self._size = stiffness * membrane * self.reach**2
         self._rest = self._surface.knots(section.reference)
         self._followed: FollowedPairs | None = None
+        # a shape where nothing was within the reach and how much nearer knots may have come since,
+        # the last shape, and whether the pairs have not seen it
+        self._calm: tuple[np.ndarray, float] | None = None
+        self._unseen, self._is_behind, self._left = np.empty(0), False, 0.0
         self._closed: tuple[np.ndarray | None, Closed | None] = None, None
 
     def __repr__(self) -> str:
@@ -141,25 +150,21 @@ class SelfContact:
             self._followed.knots, closed.pairs, closed.edges, closed.full, self.thickness,
             self._span, self._size,
         )  # fmt: skip
-        return self._on_points(closed, blocks)
-
-    def _on_points(self, closed: Closed, blocks: np.ndarray) -> sparse.csr_matrix:
-        """Matrix on the control points, from one on the four points of every closed pair."""
-        spread = self._surface.spread()
-        if not len(closed):
-            return sparse.csr_matrix((spread.shape[1], spread.shape[1]))
-        index = (3 * closed.pairs[:, :, None] + np.arange(3)).reshape(-1, 12)
-        row, column = np.repeat(index, 12, axis=1), np.tile(index, (1, 12))
-        entries = blocks.ravel(), (row.ravel(), column.ravel())
-        matrix = sparse.coo_matrix(entries, (spread.shape[0], spread.shape[0])).tocsr()
-        return (spread.T @ matrix @ spread).tocsr()
+        return self.on_points(closed.pairs, blocks)
 
     def _reached(self, points: np.ndarray) -> bool:
         """Go to a shape, unless it or the way to it crosses."""
+        if self._still(points):
+            return True
         knots = self._surface.knots(points)
-        if not np.isfinite(knots).all():
+        if not np.isfinite(knots).all() or not self._gone_to(knots):
             return False
-        if self._followed is None:
+        self._settle_down(points)
+        return True
+
+    def _gone_to(self, knots: np.ndarray) -> bool:
+        followed = self._followed
+        if followed is None:
             if not (begun := self._begun(knots)):
                 raise Refusal(
                     "the foil crosses itself, or lies nearer than its thickness, in the shape from "
@@ -167,19 +172,43 @@ class SelfContact:
                 )
             self._followed = begun
             return True
-        followed = self._followed
         if np.array_equal(knots, followed.knots):
             return True
-        shift = followed.shift(knots)
-        if shift > self._far:
+        if followed.shift(knots) > self._far:
             if not (begun := self._begun(knots)):
                 return False
             self._followed = begun
             return True
-        if followed.share(knots - followed.knots, shift, _CLOSING) < 1.0:
+        if followed.share(knots - followed.knots, _CLOSING) < 1.0:
             return False
-        followed.move(knots, shift)
+        followed.move(knots)
         return True
+
+    def _still(self, points: np.ndarray) -> bool:
+        """Whether for sure nothing has come within the reach since a shape where nothing was."""
+        if self._calm is None:
+            return False
+        calm, rest = self._calm
+        self._left = rest - 2.0 * largest_control_deviation(points, calm)
+        if self._left > 0.0:
+            np.copyto(self._unseen, points)
+            self._is_behind = True
+            return True
+        self._calm, self._is_behind = None, False
+        return False
+
+    def _settle_down(self, points: np.ndarray) -> None:
+        """Note a shape where nothing is within the reach, and how far it may be left unseen."""
+        self._left = self._followed.rest()
+        if self._left > 0.0:
+            self._calm, self._unseen = (points.copy(), self._left), points.copy()
+
+    def _catch_up(self) -> FollowedPairs:
+        """The pairs, in the last shape with a finite energy."""
+        if self._is_behind:
+            self._followed.move(self._surface.knots(self._unseen))
+            self._is_behind = False
+        return self._followed
 
     def _begun(self, knots: np.ndarray) -> FollowedPairs | None:
         """The pairs of a shape by itself; None where it crosses."""
@@ -196,20 +225,32 @@ class SelfContact:
         active = followed.active()
         if self._closed[0] is active:
             return self._closed[1]
-        pairs, edges = followed.pairs[active], active >= followed.touching
+        pairs, edges = followed.pairs[active], followed.edges[active]
         lengths = self._rest[pairs[:, 1:4:2]] - self._rest[pairs[:, 0:3:2]]
         full = PARALLEL * np.prod(np.sum(lengths**2, axis=2), axis=1)
         self._closed = active, Closed(pairs, edges, full)
         return self._closed[1]
 
-    @property
-    def knots(self) -> np.ndarray:
-        """The last shape with a finite energy, shape (count, 3), m."""
-        return self._followed.knots
+    def _closed_knots(self) -> np.ndarray:
+        return self.closed().pairs
 
-    def knot_motion(self, free: np.ndarray) -> np.ndarray:
-        """Motion of the knots with one of the control points between the rings, those standing."""
-        return self._surface.knots(self._between_rings(free))
+    def numbers(self, state: None = None) -> dict[str, float]:
+        """Of the last shape with a finite energy, by the names of quantities."""
+        closed = self.closed()
+        gap = self._followed.least_distance() - self.thickness
+        return {
+            "contact_pairs": float(len(closed)),
+            "contact_gap_min": gap if len(closed) else np.nan,
+            "contact_share": len(np.unique(closed.pairs)) / self._surface.count,
+        }
+
+    def knots(self) -> np.ndarray:
+        """See `Springs`."""
+        return self._catch_up().knots
+
+    def free_way(self, free: np.ndarray) -> bool:
+        """Whether a motion of the control points between the rings meets nothing, for sure."""
+        return self._calm is not None and 4.0 * largest_motion(free) < self._left
 
     def passable_share(self, motion: np.ndarray, closing: float) -> float:
         """Part of a motion of the knots in which no gap closes by more than a share of it.
@@ -220,28 +261,7 @@ class SelfContact:
             From the last shape with a finite energy, m.
         closing : float
         """
-        followed = self._followed
-        return followed.share(motion, followed.shift(followed.knots + motion), closing)
-
-    def spring_forces(self, free: np.ndarray) -> np.ndarray:
-        """Forces of the closed pairs as springs along their gaps, in a small motion.
-
-        Parameters
-        ----------
-        free : ndarray, shape (3, free rows, columns)
-            Motion of the control points between the rings, m.
-
-        Returns
-        -------
-        ndarray, same shape
-            On these, N.
-        """
-        motion = self.knot_motion(free)
-        forces = np.zeros_like(motion)
-        spring_forces(self.closed().pairs, *self.springs(), motion, forces)
-        out = np.empty(self._surface.patch.shape)
-        self._surface.gathered(forces, out)
-        return np.ascontiguousarray(out[:, RING_ROWS:-RING_ROWS])
+        return self._catch_up().share(motion, closing)
 
     def springs(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Stiffness, weights and direction of the closed pairs, see `pairs.springs`."""
@@ -249,36 +269,3 @@ class SelfContact:
         return springs(
             self._followed.knots, closed.pairs, closed.edges, self.thickness, self._span, self._size
         )
-
-    def spring_tangent(
-        self, points: np.ndarray, stiffness: float | None = None, stuck: bool = False
-    ) -> sparse.csr_matrix:
-        """Stiffness of the closed pairs as springs between their closest points, without stress.
-
-        Parameters
-        ----------
-        points : ndarray, shape (3, rows, columns)
-            m.
-        stiffness : float, optional
-            Of every spring, N/m; that of the barrier by default.
-        stuck : bool
-            Whether they resist sliding as well as approach.
-
-        Returns
-        -------
-        csr_matrix
-            On all control points, as `tangent`; positive semi-definite.
-        """
-        if not self._reached(points):
-            raise ValueError("a sheet has no contacts in a shape that crosses itself")
-        own, weights, direction = self.springs()
-        size = np.maximum(own, 0.0) if stiffness is None else np.full(len(own), stiffness)
-        across = np.eye(3) if stuck else direction[:, :, None] * direction[:, None, :]
-        pair = size[:, None, None] * weights[:, :, None] * weights[:, None, :]
-        blocks = np.einsum("pij,kl->pikjl" if stuck else "pij,pkl->pikjl", pair, across)
-        return self._on_points(self.closed(), blocks.reshape(-1, 12, 12))
-
-    def _between_rings(self, free: np.ndarray) -> np.ndarray:
-        field = np.zeros(self._surface.patch.shape)
-        field[:, RING_ROWS:-RING_ROWS] = free
-        return field

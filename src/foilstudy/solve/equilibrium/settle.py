@@ -136,6 +136,8 @@ class SettleResult:
         Of the tangent with the rings held; None where it was not counted.
     relaxation_steps, hessians, newton_steps : int
         Work done: explicit steps, tangents formed, quasi-Newton steps.
+    shortened_steps : int
+        See `Motion`; those before the settling are counted, too.
     """
 
     status: str
@@ -146,6 +148,7 @@ class SettleResult:
     relaxation_steps: int
     hessians: int
     newton_steps: int
+    shortened_steps: int = 0
 
 
 def settle(
@@ -181,7 +184,7 @@ def settle(
         if relaxed.status == "diverged":
             return SettleResult(
                 relaxed.status, relaxed.message, points, relaxed.residual, None,
-                steps, hessians, newton_steps,
+                steps, hessians, newton_steps, motion.shortened_steps,
             )  # fmt: skip
         last = relaxed.status == "not_converged"
         most = options.hessians_last if last else options.hessians_per_round
@@ -201,7 +204,7 @@ def settle(
         if residual <= options.residual_tolerance:
             return SettleResult(
                 "converged", polished.message, points, residual, polished.negative_eigenvalues,
-                steps, hessians, newton_steps,
+                steps, hessians, newton_steps, motion.shortened_steps,
             )  # fmt: skip
         polished = replace(
             polished,
@@ -210,7 +213,7 @@ def settle(
         )
     return SettleResult(
         "not_converged", polished.message, points, polished.residual,
-        polished.negative_eigenvalues, steps, hessians, newton_steps,
+        polished.negative_eigenvalues, steps, hessians, newton_steps, motion.shortened_steps,
     )  # fmt: skip
 
 

@@ -45,6 +45,8 @@ class Arrival:
         Whether it ended there for want of factorisations.
     free_heights : tuple of float
         Heights to which the ring sprang each time that it was let go on the way, m.
+    shortened_steps : int
+        Steps of the motion that were shortened, lest parts of the foil cross.
     """
 
     status: str
@@ -61,6 +63,7 @@ class Arrival:
     reached: float = 1.0
     budget_spent: bool = False
     free_heights: tuple[float, ...] = ()
+    shortened_steps: int = 0
 
     def after(self, earlier: Arrival) -> Arrival:
         """The same with the work and the history of what came before, on a coarser mesh say."""

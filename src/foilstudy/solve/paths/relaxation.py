@@ -97,7 +97,7 @@ def ended(relaxed: RelaxationResult, costs: Mapping[str, Cost]) -> Arrival:
     """Where a relaxation has ended, without settling."""
     return Arrival(
         relaxed.status, relaxed.message, relaxed.points, relaxed.residual, None,
-        relaxed.steps, 0, 0, relaxed.history, costs,
+        relaxed.steps, 0, 0, relaxed.history, costs, shortened_steps=relaxed.shortened_steps,
     )  # fmt: skip
 
 
@@ -114,4 +114,5 @@ def arrived(
         settled.negative_eigenvalues, before + settled.relaxation_steps, settled.newton_steps,
         settled.hessians, relaxed.history if relaxed else None, costs,
         problem.state if problem.has_memory else (),
+        shortened_steps=settled.shortened_steps,
     )  # fmt: skip

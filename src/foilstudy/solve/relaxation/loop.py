@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numba import njit
@@ -108,6 +108,8 @@ class RelaxationResult:
     steps : int
         Steps done, ramp included.
     history : History
+    shortened_steps : int
+        Of these and of those before that the motion has done, see `Motion`.
     """
 
     status: str
@@ -117,6 +119,7 @@ class RelaxationResult:
     kinetic_energy_ratio: float
     steps: int
     history: History
+    shortened_steps: int = 0
 
 
 _UNSTABLE = 0.5
@@ -256,7 +259,8 @@ def relax(
             turned.move(points, ramp.progress_at(step - 1), ramp.progress_at(step))
         if problem.has_memory:
             problem.commit(points)
-    return recorder.result(status, step, points, rule, failure)
+    result = recorder.result(status, step, points, rule, failure)
+    return replace(result, shortened_steps=motion.shortened_steps)
 
 
 def _return(motion: Motion, momentum: np.ndarray, force: np.ndarray, halt: Halt) -> np.ndarray:

@@ -11,6 +11,7 @@ from foilstudy.solve.relaxation.damping import Damper, Damping
 from foilstudy.solve.relaxation.damping.adaptive_viscous import AdaptiveViscousDamping
 from foilstudy.solve.relaxation.mass import Mass, MassScaling
 from foilstudy.solve.relaxation.mass.spectral import SpectralMassScaling
+from foilstudy.solve.relaxation.mass.touching import TouchingMass, minding_contact
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,7 @@ class Scheme:
     def start(self, problem: Problem) -> Motion:
         """Fresh mass and dampers for one run."""
         return Motion(
-            self.mass.start(problem),
+            minding_contact(self.mass.start(problem), problem),
             self.ramp_damping.start(),
             self.relaxation_damping.start(),
         )
@@ -55,3 +56,8 @@ class Motion:
     mass: Mass
     ramp_damper: Damper
     relaxation_damper: Damper
+
+    @property
+    def shortened_steps(self) -> int:
+        """Steps that were shortened so far, lest parts of the sheet cross."""
+        return self.mass.shortened if isinstance(self.mass, TouchingMass) else 0

@@ -112,6 +112,7 @@ def _radial_displacement(surface: np.ndarray, reference: np.ndarray) -> np.ndarr
 def _numbers(crumpled: Crumpled) -> dict[str, float]:
     arrival, points, patch = crumpled.arrival, crumpled.points, crumpled.patch
     problem, force = crumpled.problem(), np.empty_like(points)
+    touches = crumpled.method.touches
     energies = zip(problem.energy_names, problem.force(points, force), strict=True)
     surface = knot_points(points)
     radial = _radial_displacement(surface, knot_points(crumpled.reference))
@@ -133,4 +134,5 @@ def _numbers(crumpled: Crumpled) -> dict[str, float]:
         **problem.numbers(),
         **({"stress_kept": crumpled.stress_kept} if crumpled.beyond_elastic else {}),
         **localisation(patch, points),
+        **({"contact_shortened_steps": float(arrival.shortened_steps)} if touches else {}),
     }

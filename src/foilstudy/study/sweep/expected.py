@@ -4,6 +4,7 @@ Time is a sum of power laws, each with its reason:
 
 - a crumple takes *steps* evaluations of force and mass solve, a little more than proportional to
   the elements as they leave the caches, and one factorisation when it settles;
+- contact costs the more, the more there is that touches, which grows with the overlength;
 - the relaxation takes the more steps, the thinner the foil is against its radius; the ramp takes
   the steps it is told to take;
 - a static stiffness costs a factorisation, on every mesh of the ladder: twice on the mesh of the
@@ -73,6 +74,9 @@ class CostModel:
     projection_memory_mb: float = 186  # for a thousand elements times a thousand coordinates
     job: float = 0.122  # seconds of a job beyond its physics
     gathering: float = 30.2  # seconds of cylinder and all jobs that wait for the realisations
+    contact: float = (
+        2.2  # of the time of a step, for each unit of overlength, where parts may touch
+    )
     start: float = 3.47  # seconds until the first job starts, and of Snakemake in all
 
     def steps_after_ramp(self, slenderness: float) -> float:
@@ -244,6 +248,8 @@ def _configuration(study: StudyConfig, cell: Cell, model: CostModel) -> Expected
     for level in range(1, halvings + 1):
         steps_there = relaxing + (ramp if level == halvings else 0)
         crumpling += model.crumple_seconds(elements / 4**level, steps_there)
+    if task.contact.kind != "none":
+        crumpling *= 1 + model.contact * cell.overlength_percent / 100
     coordinates = model.reduced_coordinates(slenderness, study.dynamics.shown_max_hz)
     dynamic = model.dynamic_seconds(elements, coordinates)
     seconds = {

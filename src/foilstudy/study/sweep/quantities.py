@@ -56,6 +56,11 @@ def _true(units: str, words: str, dims: tuple[str, ...] = ()) -> Declared:
     return Declared(units, words, dims, only="beyond_elastic")
 
 
+def _contact_stiffness(words: str) -> Declared:
+    words = f"static stiffness, other motions held, closed contacts {words}"
+    return Declared("N/m", words, _DIRECTION, only="touching")
+
+
 def _record_only(units: str, words: str, dims: tuple[str, ...]) -> Declared:
     return Declared(units, words, dims, in_cube=False)
 
@@ -69,6 +74,10 @@ QUANTITIES: dict[str, Declared] = {
     "static_stiffness_mesh_error": Declared(
         "N/m", "estimated mesh error of static_stiffness_converged", _DIRECTION
     ),
+    "stiffness_contacts_ignored": _contact_stiffness("as if they were open"),
+    "stiffness_contacts_normal": _contact_stiffness("springs along their gaps, as the barrier"),
+    "stiffness_contacts_rigid": _contact_stiffness("rigid along their gaps"),
+    "stiffness_contacts_stuck": _contact_stiffness("rigid in all directions"),
     "static_refinements": Declared("1", "refinements of the shape that these took"),
     "prestressed_stiffness": Declared(
         "N/m", "static stiffness at the stressed equilibrium, other motions held", _DIRECTION
@@ -184,6 +193,23 @@ QUANTITIES: dict[str, Declared] = {
     "dissipated_work": Declared("J", "work that plastic flow has used up", only="yielding"),
     "stress_kept": _true("1", "share of the stress that waiting has left"),
     "self_crossing_share": Declared("1", "share of the surface crossed by another part"),
+    "contact_share": Declared("1", "share of the knots in closed contacts", only="touching"),
+    "contact_pairs": Declared(
+        "1", "pairs of points and triangles or edges that touch", only="touching"
+    ),
+    "contact_knots_at_rings": Declared(
+        "1", "knots that touch the planes of the rings", only="touching"
+    ),
+    "contact_gap_min": Declared(
+        "m",
+        "smallest gap of a closed contact",
+        cube_units="um",
+        cube_scale=1e6,
+        only="touching",
+    ),
+    "contact_shortened_steps": Declared(
+        "1", "steps shortened lest parts of the foil cross", only="touching"
+    ),
     "broad_wave_share": Declared(
         "1", "share of the radial displacement that bulges or sways the cylinder as a whole"
     ),

@@ -18,6 +18,7 @@ from foilstudy.measure.air.protocols import Air
 from foilstudy.measure.air.surface import WettedSurface
 from foilstudy.measure.dynamics import DynamicsOptions, Structure
 from foilstudy.measure.stiffness import fixed_stiffness, free_stiffness
+from foilstudy.measure.stiffness.contacts import CONTACT_SPRINGS
 from foilstudy.measure.stiffness.directional import DIRECTIONS
 from foilstudy.measure.verdicts import Evidence, flags, verdicts
 from foilstudy.model.patch import Patch
@@ -167,6 +168,7 @@ def _static(crumpled: Crumpled, structure: Structure, task: ResponseTask) -> Val
         "static_refinements": float(limit.refinements),
         "interface_stiffness": interface,
         "prestressed_stiffness": _prestressed(crumpled),
+        **(_bracket(crumpled) if crumpled.method.touches else {}),
     }
 
 
@@ -212,6 +214,11 @@ def _amplitudes(crumpled: Crumpled, task: ResponseTask) -> Values:
         for direction in DIRECTIONS
     ]
     return {"linear_amplitude": np.array(found)}
+
+
+def _bracket(crumpled: Crumpled) -> Values:
+    bracket = crumpled.contact_bracket()
+    return {f"stiffness_contacts_{kind}": getattr(bracket, kind) for kind in CONTACT_SPRINGS}
 
 
 def _dynamic(structure: Structure, options: DynamicsOptions, patch: Patch) -> Values:

@@ -13,6 +13,7 @@ SWITCHES: dict[str, Callable[[StudyConfig], bool]] = {
     "drawing": lambda study: bool(study.specimen.draws),
     "lets_go": lambda study: study.lets_go,
     "swept": lambda study: bool(study.amplitude.directions),
+    "touching": lambda study: study.contact.kind != "none",
     "retrying": lambda study: study.method.retries > 0,
 }
 """Whether a study has the quantities whose `Declared.only` is such a name."""

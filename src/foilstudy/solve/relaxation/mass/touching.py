@@ -1,4 +1,4 @@
-"""A mass scaling for sheets that touch: no motion that crosses, no step that contact destabilises.
+"""The mass of a sheet that touches: no motion that crosses, no step that contact destabilises.
 
 The masses of the shell bound its own stiffness. Closed contacts add to it, so the mass is
 multiplied where the two together would exceed what a step of 1 bears, lambda_max(M^-1 K) <= 4; the
@@ -9,18 +9,17 @@ stay those of one mass, as the damping has to see.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
 from foilstudy.linalg import SolveError
-from foilstudy.model.contact import SelfContact
-from foilstudy.model.patch import RING_ROWS
-from foilstudy.solve.problem import Problem
-from foilstudy.solve.relaxation.mass import Mass, MassScaling
-from foilstudy.solve.relaxation.mass.spectral import SpectralMassScaling
+from foilstudy.solve.problem import Problem, Term
+from foilstudy.solve.relaxation.mass import Mass
 
-_FREE = slice(RING_ROWS, -RING_ROWS)
+__all__ = ["Impassable", "TouchingMass", "minding_contact"]
+
 _BOUND, _SHELL, _MARGIN = 3.8, 1.4, 1.1
 """Largest eigenvalue allowed, what the shell is taken to have of it where sheets touch, and the
 factor on what power iteration has found of the contacts."""
@@ -30,30 +29,51 @@ _CLOSING = 0.9
 _SHORTENINGS = 12
 
 
-@dataclass(frozen=True)
-class TouchingMassScaling:
-    """A mass of the shell, and what contact makes of it.
+@runtime_checkable
+class Impassable(Term, Protocol):
+    """A term that keeps parts of a sheet from passing something."""
 
-    Attributes
-    ----------
-    shell : MassScaling
-        Alone at work as long as nothing touches.
-    """
+    def knots(self) -> np.ndarray:
+        """The last shape with a finite energy, shape (count, 3), m."""
+        ...
 
-    kind = "touching"
-    shell: MassScaling = field(default_factory=SpectralMassScaling)
+    def touches(self) -> bool:
+        """Whether it exerts anything there."""
+        ...
 
-    def start(self, problem: Problem) -> Mass:
-        """See `MassScaling`; of a problem without contact it is the mass of the shell."""
-        mass = self.shell.start(problem)
-        contacts = [term for term in problem.terms if isinstance(term, SelfContact)]
-        return TouchingMass(mass, contacts[0]) if contacts else mass
+    def free_way(self, free: np.ndarray) -> bool:
+        """Whether a motion of the control points between the rings meets nothing, for sure."""
+        ...
+
+    def knot_motion(self, free: np.ndarray) -> np.ndarray:
+        """Motion of the knots with one of the control points between the rings, those standing."""
+        ...
+
+    def passable_share(self, motion: np.ndarray, closing: float) -> float:
+        """Part of a motion of the knots in which no gap closes by more than a share of it."""
+        ...
+
+    def spring_forces(self, free: np.ndarray) -> np.ndarray:
+        """Forces of what is closed as springs along its gaps, in a small motion."""
+        ...
+
+
+def minding_contact(mass: Mass, problem: Problem) -> Mass:
+    """A mass of a shell, with what contact makes of it where the problem has any."""
+    contacts = [term for term in problem.terms if isinstance(term, Impassable)]
+    return TouchingMass(mass, contacts) if contacts else mass
 
 
 class TouchingMass:
-    """See `TouchingMassScaling`; at work in one relaxation.
+    """At work in one relaxation; the mass of the shell as long as nothing touches.
 
     The force has to be asked for at the present shape before the velocity is.
+
+    Parameters
+    ----------
+    shell : Mass
+    contacts : sequence of Impassable
+        On the same knots.
 
     Attributes
     ----------
@@ -63,8 +83,8 @@ class TouchingMass:
         Steps that were shortened.
     """
 
-    def __init__(self, shell: Mass, contact: SelfContact):
-        self._shell, self._contact = shell, contact
+    def __init__(self, shell: Mass, contacts: Sequence[Impassable]):
+        self._shell, self._contacts = shell, tuple(contacts)
         self._probe: np.ndarray | None = None
         self._since, self._factor = 0, 1.0
         self._knots: np.ndarray | None = None
@@ -85,13 +105,16 @@ class TouchingMass:
         velocity = self._shell.velocity(momentum)
         if factor > 1.0:
             velocity = velocity / factor
-        motion, rings = self._contact.knot_motion(velocity), self._ring_motion()
+        if all(each.free_way(velocity) for each in self._contacts):
+            self._knots = None
+            return velocity
+        motion, rings = self._contacts[0].knot_motion(velocity), self._ring_motion()
         share = self._passable(motion, rings)
         if share < 1.0:
             self.shortened += 1
             momentum *= share
             velocity, motion = share * velocity, share * motion
-        self._knots, self._moved = self._contact.knots, motion
+        self._knots, self._moved = self._contacts[0].knots(), motion
         return velocity
 
     def _ring_motion(self) -> np.ndarray | float:
@@ -99,7 +122,7 @@ class TouchingMass:
 
         The ramp is smooth, so that it is what they will move them by in this one.
         """
-        here = self._contact.knots
+        here = self._contacts[0].knots()
         if self._knots is None or np.array_equal(here[-1], self._knots[-1]):
             return 0.0
         return here - self._knots - self._moved
@@ -107,17 +130,20 @@ class TouchingMass:
     def _passable(self, motion: np.ndarray, rings: np.ndarray | float) -> float:
         share = 1.0
         for _ in range(_SHORTENINGS):
-            passed = self._contact.passable_share(share * motion + rings, _CLOSING)
+            passed = self._passed(share * motion + rings)
             if passed >= 1.0:
                 return share
             share *= min(passed, 0.9)
-        if self._contact.passable_share(0.0 * motion + rings, _CLOSING) >= 1.0:
+        if self._passed(0.0 * motion + rings) >= 1.0:
             return 0.0
         raise SolveError("the rings close a gap between parts of the foil; use more ramp steps")
 
+    def _passed(self, motion: np.ndarray) -> float:
+        return min(each.passable_share(motion, _CLOSING) for each in self._contacts)
+
     def _mass_factor(self, momentum: np.ndarray) -> float:
         """Factor on the mass that keeps a step stable, measured every few steps."""
-        if not len(self._contact.closed()):
+        if not any(each.touches() for each in self._contacts):
             self._probe, self._since = None, 0
             return 1.0
         if self._since % _EVERY == 0:
@@ -136,7 +162,7 @@ class TouchingMass:
             rounds = _ITERATIONS
         largest = 0.0
         for _ in range(rounds):
-            force = self._contact.spring_forces(self._probe)
+            force = sum(each.spring_forces(self._probe) for each in self._contacts)
             response = self._shell.velocity(force).copy()
             size = np.sum(response * force)  # f M^-1 f = x K M^-1 K x
             if not size > 0:
