@@ -13,9 +13,9 @@ _TITLES = {
     "overlength": "exponent of overlength",
     "thickness": "exponent of thickness",
 }
-_MARKS = {"stress-free": "o", "with its stresses": "s"}
+_MARKS = {"stress-free": "o", "stress-free, contacts stuck": "^", "with its stresses": "s"}
 _LEVELS = (0.03, 0.1, 0.3, 1, 3, 10, 30)
-_OFFSET = 0.16
+_OFFSET = 0.22
 
 
 @styled
@@ -53,15 +53,15 @@ def _panel(panel, laws: list[Law], models: list[str], term: str) -> None:
                 panel.axvspan(known.low, known.high, color="0.85", zorder=0)
             continue
         states = list(_MARKS)
-        shift = _OFFSET * (2 * states.index(law.state) - 1) if law.of else 0.0
+        shift = _OFFSET * (states.index(law.state) - 1) if law.of else 0.0
         ends = np.array([[known.value - known.low], [known.high - known.value]])
         panel.errorbar(
             known.value,
             models.index(law.words) + shift,
             xerr=ends if np.isfinite(ends).all() else None,
             fmt=_MARKS[law.state],
-            color="0.1" if law.state == "stress-free" else "0.45",
-            mfc="w" if law.state == "stress-free" else None,
+            color="0.45" if law.state == states[-1] else "0.1",
+            mfc=None if law.state == states[-1] else "w",
             capsize=2.5,
             label=law.state,
         )

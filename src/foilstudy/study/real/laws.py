@@ -18,6 +18,7 @@ from foilstudy.study.real.plan import LADDER, Trial
 
 STATES = {
     "stress-free": ("static_stiffness",),
+    "stress-free, contacts stuck": ("stiffness_contacts_stuck",),
     "with its stresses": ("true_stiffness", "prestressed_stiffness"),
 }
 """By what they are called here, quantities: the first one that there is."""
