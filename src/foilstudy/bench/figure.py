@@ -61,7 +61,7 @@ def draw(comparison: Comparison, title: str):
     for ax, shown in zip(axes, (np.abs(measured.values), turned.phase(places, measured.values))):
         ax.plot(places, np.where(rest, np.nan, shown), color=_MEASURED, lw=1.0, label="measured")
         if rest.any():
-            ax.plot(places[rest], shown[rest], ".", color=_MEASURED, alpha=0.35, ms=2, mew=0,
+            ax.plot(places[rest], shown[rest], ".", color=_MEASURED, alpha=0.6, ms=3, mew=0,
                     label="measured, coherence below 0.95")  # fmt: skip
     outside = comparison.excursion != 1
     if outside.any():

@@ -108,7 +108,11 @@ def findings(comparison: Comparison) -> Iterator[tuple[str, str]]:
 
 def _interval(value: float, low: float, high: float) -> str:
     """With its 95 % interval where that is known."""
-    text = f"{value:.4g} N/m"
+    text = f"{_four_digits(value)} N/m"
     if not (math.isfinite(low) and math.isfinite(high)):
         return f"{text}, interval unknown"
-    return f"{text} (95 %: {low:.4g} to {high:.4g})"
+    return f"{text} (95 %: {_four_digits(low)} to {_four_digits(high)})"
+
+
+def _four_digits(value: float) -> str:
+    return f"{float(f'{value:.4g}'):g}"

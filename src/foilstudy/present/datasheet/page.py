@@ -126,7 +126,7 @@ def _scope(cube: xr.Dataset, facts: LinkFacts) -> str:
 
 
 def _counted(facts: LinkFacts) -> str:
-    text = f"{plural(facts.counted, 'realisation')} (seeds) of {facts.realisations} count"
+    text = f"Of {plural(facts.realisations, 'realisation')} (seeds), {facts.counted} in the numbers"
     if facts.not_converged:
         text += f", {facts.not_converged} of them not converged"
     return f"{text}."
@@ -137,10 +137,8 @@ def _doubts(facts: LinkFacts) -> Iterator[str]:
         if each.doubts:
             yield f"Do not trust the {each.name} stiffness: {'; '.join(each.doubts)}."
     if facts.counted < 3:
-        yield (
-            f"{plural(facts.counted, 'realisation')}: how much links of this kind differ is "
-            "little more than a guess."
-        )
+        known = "not known" if facts.counted == 1 else "little more than a guess"
+        yield f"{plural(facts.counted, 'realisation')}: how much such links differ is {known}."
 
 
 def _static_rows(facts: LinkFacts) -> Iterator[_Row]:
