@@ -7,6 +7,7 @@ import pytest
 import scipy.sparse as sparse
 from conftest import DIAMETER, FEP, FOIL
 from scipy.special import ellipk
+from side_study import write_results
 from small_study import SECTIONS
 
 from foilstudy.base.errors import Refusal
@@ -37,6 +38,9 @@ from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.pipeline.structures import prestressed_stiffness, stress_free_stiffness
 from foilstudy.solve.equilibrium.swept import RingMotion, swept
 from foilstudy.solve.paths.relaxation import RelaxationPath
+from foilstudy.study.amplitude import measure, tables
+from foilstudy.study.amplitude.plan import LETTINGS, STUDY
+from foilstudy.study.kernel.files import present, read_records
 from foilstudy.study.sweep.crumple import crumple_job
 from foilstudy.study.sweep.cube import gather
 from foilstudy.study.sweep.cylinder import cylinder_bounds
@@ -244,6 +248,7 @@ def test_the_normal_form_of_a_known_system_holds_where_condensation_does_not():
     g2, s2 = 4 * 0.5**2, 2.6**2
     assert form.quadratic == pytest.approx(0, abs=1e-12)
     assert form.cubic == pytest.approx(-g2 / s2 / 2)
+    assert form.duffing.period_frequency(0.1) - 1 == pytest.approx(form.bend * 0.1**2 / 2, rel=1e-2)
     assert form.bend == pytest.approx(-g2 / s2 / 4 - g2 / (s2 - 4) / 8)
     start = 0.1 * shape
     start[1] = -0.25 * g2**0.5 * 0.1**2 * (1 / s2 + 1 / (s2 - 4))  # on the normal mode
@@ -384,3 +389,32 @@ def test_a_study_asks_for_linear_amplitudes(tmp_path):
     assert amplitude.units == "m" and np.isnan(amplitude.sel(direction="radial")).all()
     expected = linear_amplitude(Crumpled.recorded(place / "crumple.nc"), "axial")
     assert float(amplitude.sel(direction="axial")[0, 0, 0]) == expected > 0
+
+
+def test_the_side_study_shows_what_it_measures(small, tmp_path, monkeypatch):
+    monkeypatch.setattr(measure, "_crumple_of", lambda *_: small)
+    monkeypatch.setattr(measure, "PERIODS", 2.0)
+    swept_axially = {
+        case.prestressed: measure.sweep(case, {})
+        for case in STUDY.part("sweeps").cases
+        if (case.thickness_um, case.motion) == (500, "axial")
+    }
+    formed = measure.modes(STUDY.part("modes").cases[0], {})
+    results = {
+        "sweeps": {c: swept_axially[c.prestressed] for c in STUDY.part("sweeps").cases},
+        "modes": dict.fromkeys(STUDY.part("modes").cases, formed),
+    }
+    let = measure.release(LETTINGS[0], {})
+    results["releases"] = dict.fromkeys(LETTINGS, let)
+    results["shapes"] = dict.fromkeys(STUDY.part("shapes").cases, {"points": small.points})
+    write_results(STUDY, results, tmp_path)
+    present(STUDY, tmp_path)
+    assert {path.name for path in tmp_path.iterdir() if path.is_file()} >= set(STUDY.outputs())
+    findings = STUDY.findings(read_records(STUDY, tmp_path))
+    first, *_ = tables.linear(findings)
+    curve = ring_sweep(small, first["motion"], SweepPlan(stressed=first["prestressed"]))
+    assert first["linear_amplitude_mm"] == pytest.approx(1e3 * curve.linear_amplitude())
+    assert next(iter(tables.steps(findings)))["way"] == curve.sides[0].motion[0]
+    page = tables.page(findings)
+    assert "| axial | 0 |" in page and "softens" in page
+    assert let["integrated"] == pytest.approx(let["normal_form"], abs=1e-3)

@@ -83,6 +83,15 @@ class NormalForm:
         return Oscillator((self.eigenvalue, self.quadratic, self.cubic))
 
     @property
+    def duffing(self) -> Oscillator:
+        """Without a quadratic force, and with the backbone of the normal form.
+
+        For vibrations near the mode's frequency, driven ones too: where condensation does not hold
+        this does, as long as no other mode has nearly this frequency or nearly twice it.
+        """
+        return Oscillator((self.eigenvalue, 0.0, 4 / 3 * self.bend))
+
+    @property
     def condensed_bend(self) -> float:
         """The same as `bend` by implicit condensation."""
         return 0.75 * self.cubic - 5 / 6 * self.quadratic**2 / self.eigenvalue

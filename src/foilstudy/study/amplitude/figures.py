@@ -6,7 +6,7 @@ import numpy as np
 
 from foilstudy.measure.amplitude.curve import LINEAR_SHARE
 from foilstudy.plot import style
-from foilstudy.study.amplitude.plan import EVERYWHERE, SEEDS
+from foilstudy.study.amplitude.plan import MOTIONS
 from foilstudy.study.kernel.plan import Results
 from foilstudy.study.published import THICKNESSES_UM
 
@@ -17,11 +17,12 @@ _LEAST = 1e-2
 @style.styled
 def stiffness(findings: Results):
     """Change of the secant stiffness against amplitude: a panel per thickness and motion."""
+    motions = MOTIONS[THICKNESSES_UM[-1]]
     figure, axes = style.panel_grid(
-        len(THICKNESSES_UM), len(EVERYWHERE), (4.5, 3.0), (0.5, 0.3), sharex=True, sharey=True
+        len(THICKNESSES_UM), len(motions), (4.5, 3.0), (0.5, 0.3), sharex=True, sharey=True
     )
     for ax, (thickness, motion) in zip(
-        axes.flat, ((t, m) for t in THICKNESSES_UM for m in EVERYWHERE), strict=True
+        axes.flat, ((t, m) for t in THICKNESSES_UM for m in motions), strict=True
     ):
         for case, found in findings["sweeps"].items():
             if (case.thickness_um, case.motion) == (thickness, motion):
@@ -49,10 +50,8 @@ def _curve(ax, case, found: dict) -> None:
     steps = min(map(len, changes))
     ways = 1e3 * np.abs(np.array(found["sides"][0]["motion"][:steps], float))
     most = 100 * np.max([change[:steps] for change in changes], axis=0)
-    first = case.seed == SEEDS[0]
-    label = case.words.partition(", ")[2] if first else None
     color = "C1" if case.prestressed else "C0"
-    ax.plot(ways, most, color=color, alpha=1 if first else 0.5, label=label)
+    ax.plot(ways, most, color=color, label=case.words.partition(", ")[2])
 
 
 @style.styled
@@ -62,8 +61,6 @@ def backbones(findings: Results):
     axes = figure.subplots(1, 2)
     ways = np.geomspace(1e-5, 1e-3, 30)
     for case, found in findings["modes"].items():
-        if case.seed != SEEDS[0]:
-            continue
         line = "-" if case.prestressed else "--"
         color = f"C{THICKNESSES_UM.index(case.thickness_um)}"
         for k, one in enumerate(found["modes"]):

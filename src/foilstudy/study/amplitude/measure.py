@@ -89,9 +89,14 @@ def _even_share(curve: ForceCurve) -> float:
 
 
 def modes(case: State, shapes: Mapping[Shape, Record]) -> dict:
-    """Normal forms of the lowest clamped modes."""
-    found = clamped_modes(_crumple_of(case, shapes), MODES, case.prestressed)
-    return {"modes": [_mode(form) for form in found.normal_forms()]}
+    """Normal forms of the lowest clamped modes, with their distance from the next frequency."""
+    found = clamped_modes(_crumple_of(case, shapes), MODES + 1, case.prestressed)
+    forms = found.normal_forms()[:MODES]
+    frequencies = np.sqrt(found.eigenvalues)
+    gaps = [
+        float(np.abs(np.delete(frequencies, k) / frequencies[k] - 1).min()) for k in range(MODES)
+    ]
+    return {"modes": [_mode(form) | {"gap": gap} for form, gap in zip(forms, gaps, strict=True)]}
 
 
 def _mode(form: NormalForm) -> dict:
@@ -111,10 +116,13 @@ def release(case: Letting, shapes: Mapping[Shape, Record]) -> dict:
     if not np.isfinite(starts[-1]).all():
         return dict.fromkeys(("frequency", "integrated", "normal_form", "condensed"), np.nan)
     let = released(found.foil, shape, starts[-1], PERIODS / form.frequency)
-    condensed = form.oscillator.period_frequency(amplitude) / form.oscillator.frequency
+    condensed, duffing = (
+        each.period_frequency(amplitude) / each.frequency - 1
+        for each in (form.oscillator, form.duffing)
+    )
     return {
         "frequency": form.frequency,
         "integrated": let.frequency / form.frequency - 1,
-        "normal_form": float(form.backbone(displacement)) / form.frequency - 1,
-        "condensed": condensed - 1,
+        "normal_form": duffing,
+        "condensed": condensed,
     }

@@ -10,12 +10,12 @@ from foilstudy.study.published import HEIGHT_MM, THICKNESSES_UM
 SIZE_MM, COARSE_MM = 5.0, 10.0
 """Of the elements of sweeps; of those of time integrations, each of which takes thousands of steps
 a period."""
-SEEDS = (0, 1)
-EVERYWHERE, ONCE = ("axial", "radial_x"), ("tilt_x", "twist")
-"""Motions of all crumples, and of those of the first seed."""
+SEED = 0
+MOTIONS = {500: ("axial", "radial_x", "tilt_x", "twist"), 50: ("axial", "radial_x")}
+"""By thickness; thin foil snaps often, and each snap takes as long as a sweep without."""
 AMPLITUDE_MM = 1.0
 MODES = 3
-RELEASED_MM = (0.1, 0.5)
+RELEASED_MM = (0.2,)
 """Largest displacements from which modes are let go."""
 PERIODS = 4.2
 
@@ -95,24 +95,23 @@ class Letting(State):
     displacement_mm: float
 
 
-def _states(thicknesses, size_mm, seeds):
+def _states(thicknesses: tuple[int, ...], size_mm: float) -> list[State]:
     return [
-        (t, HEIGHT_MM, size_mm, seed, stressed)
-        for t in thicknesses
-        for seed in seeds
+        State(thickness, HEIGHT_MM, size_mm, SEED, stressed)
+        for thickness in thicknesses
         for stressed in (False, True)
     ]
 
 
+STATES = tuple(_states(THICKNESSES_UM, SIZE_MM))
 SWEEPS = tuple(
-    Sweep(*state, motion)
-    for state in _states(THICKNESSES_UM, SIZE_MM, SEEDS)
-    for motion in (*EVERYWHERE, *(ONCE if state[3] == SEEDS[0] else ()))
+    Sweep(**vars(state), motion=motion)
+    for state in STATES
+    for motion in MOTIONS[state.thickness_um]
 )
-STATES = tuple(State(*state) for state in _states(THICKNESSES_UM, SIZE_MM, SEEDS))
 LETTINGS = tuple(
-    Letting(*state, mode, displacement)
-    for state in _states(THICKNESSES_UM[:1], COARSE_MM, SEEDS[:1])
+    Letting(**vars(state), mode=mode, displacement_mm=displacement)
+    for state in _states(THICKNESSES_UM[:1], COARSE_MM)
     for mode in range(1, MODES + 1)
     for displacement in RELEASED_MM
 )

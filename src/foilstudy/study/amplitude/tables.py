@@ -73,6 +73,7 @@ def page(findings: Results) -> str:
     vibrating = [
         [
             case.words, case.seed, k, f"{one['frequency']:.4g}",
+            f"{100 * one['gap']:.2g} %",
             f"{_mm(one['shift_amplitude']):.3g}",
             "hardens" if one["bend"] > 0 else "softens",
             f"{100 * one['condensation_error']:.2g} %",
@@ -89,7 +90,7 @@ def page(findings: Results) -> str:
         (
             markdown_table(heads, swept),
             markdown_table(
-                ["foil", "seed", "mode", "Hz", f"{share} of frequency at, mm", "it",
+                ["foil", "seed", "mode", "Hz", "next mode", f"{share} of frequency at, mm", "it",
                  "error of condensation"],
                 vibrating,
             ),
