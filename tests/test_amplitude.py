@@ -380,11 +380,11 @@ def test_a_study_asks_for_linear_amplitudes(tmp_path):
     for study in (plain, asked):  # the latter stays for the cube
         respond_job(study.response_task(cell), place / "crumple.nc", place / "response.nc")
         found[study.amplitude.directions], _ = read_record(place / "response.nc")
-    assert found["axial",].keys() - found[()].keys() == {"linear_amplitude"}
+    assert found["axial",].keys() - found[()].keys() == {"amplitude_1_percent"}
     for name in found[()].keys() - {"seconds_static", "seconds_dynamic", "peak_memory"}:
         np.testing.assert_array_equal(found["axial",][name], found[()][name], name)
     cylinder_bounds(asked, tmp_path / "cylinder.nc")
-    amplitude = gather(asked, tmp_path, tmp_path / "cube.nc")["linear_amplitude"]
+    amplitude = gather(asked, tmp_path, tmp_path / "cube.nc")["amplitude_1_percent"]
     assert amplitude.dims == ("thickness", "overlength", "seed", "direction")
     assert amplitude.units == "m" and np.isnan(amplitude.sel(direction="radial")).all()
     expected = linear_amplitude(Crumpled.recorded(place / "crumple.nc"), "axial")

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Bands", "Direction", "LinkFacts", "Value", "link_facts"]
 
-LINEAR_AMPLITUDE = "linear_amplitude"
+LINEAR_AMPLITUDE = "amplitude_1_percent"
 """Variable of a cube with the amplitude at which the stiffness has changed by 1 %."""
 
 

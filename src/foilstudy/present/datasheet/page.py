@@ -121,8 +121,9 @@ def _scope(cube: xr.Dataset, facts: LinkFacts) -> str:
             f"E = {nominal(case.youngs_modulus_mpa)} MPa, ν = {nominal(case.poisson_ratio)}, "
             f"{nominal(case.density_kg_m3)} kg/m³"
         )
-    surroundings = "" if "air" in configuration(cube) else "; in vacuum"
-    return f"{text}. Stress-free in its crumpled shape; both rings rigid{surroundings}."
+    air = configuration(cube).get("air", {}).get("kind", "none")
+    surroundings = "in vacuum" if air == "none" else "its dynamics in air"
+    return f"{text}. Stress-free in its crumpled shape; both rings rigid; {surroundings}."
 
 
 def _counted(facts: LinkFacts) -> str:

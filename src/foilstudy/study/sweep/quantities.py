@@ -88,7 +88,7 @@ QUANTITIES: dict[str, Declared] = {
     "prestressed_stiffness_mesh_error": Declared(
         "N/m", "step of prestressed_stiffness_converged from the next coarser mesh", _DIRECTION
     ),
-    "linear_amplitude": Declared(
+    "amplitude_1_percent": Declared(
         "m",
         "amplitude at which the secant stiffness at the stressed equilibrium has changed by 1 %, "
         "infinite where it is beyond 1 mm",

@@ -94,7 +94,7 @@ def _without_prestress(values: dict) -> str:
 def _without_amplitude(task: ResponseTask, values: dict) -> str:
     without = [
         direction
-        for direction, amplitude in zip(DIRECTIONS, values.get("linear_amplitude", ()))
+        for direction, amplitude in zip(DIRECTIONS, values.get("amplitude_1_percent", ()))
         if direction in task.linear_directions and np.isnan(amplitude)
     ]
     if not without:
@@ -213,7 +213,7 @@ def _amplitudes(crumpled: Crumpled, task: ResponseTask) -> Values:
         linear_amplitude(crumpled, direction) if direction in task.linear_directions else np.nan
         for direction in DIRECTIONS
     ]
-    return {"linear_amplitude": np.array(found)}
+    return {"amplitude_1_percent": np.array(found)}
 
 
 def _bracket(crumpled: Crumpled) -> Values:
