@@ -549,7 +549,7 @@ class Amplitude(Section):
     directions: tuple[Literal["axial", "radial"], ...] = unit_field(
         "list",
         "Directions of `amplitude_1_percent`: the top ring is moved there and back, up to 1 mm. At "
-        "elements of 5 mm it takes about 5 s a direction of a realisation. Left out, none is "
+        "elements of 5 mm it takes 5 to 15 s a direction of a realisation. Left out, none is "
         "computed.",
         (),
         max_length=2,
