@@ -180,3 +180,9 @@ def moving(*moves):
 def test_moves_that_make_no_sense_are_refused(sections, sentence):
     with pytest.raises(ConfigError, match=sentence):
         load_config({"sweep": SWEEP} | sections)
+
+
+def test_a_ring_that_does_not_come_free_has_no_free_height(monkeypatch):
+    monkeypatch.setattr("foilstudy.solve.paths.release._WAYS_MAX", 1)
+    crumpled = fitted(Move(1.0), Move(release=True), steps=200)
+    assert crumpled.status == "converged" and np.isnan(crumpled.arrival.free_heights).all()

@@ -65,9 +65,10 @@ def sprung_back(crumpled: Crumpled) -> SpringBack:
     motion, before = path.scheme.start(problem), ring_force(problem, crumpled.points)[2]
     pace = path.ramp_steps / foil.shortening
     release = Release(motion, path.stopping_rule(), pace, foil.reference_height)
-    ways, _ = let_go(problem, release, crumpled.points)
-    settled = settle(problem, motion, ways[-1].points, path.settling)
-    arrival = arrived(problem, settled, {}, ways[-1])
+    ways = let_go(problem, release, crumpled.points).results
+    last = ways[-1] if ways else None
+    settled = settle(problem, motion, last.points if last else crumpled.points, path.settling)
+    arrival = arrived(problem, settled, {}, last)
     free = replace(crumpled, points=arrival.points, arrival=arrival)
     force = ring_force(free.problem(), free.points)[2]
     return SpringBack(float(free.points[2, -RING_ROWS:].mean()), float(force / before), free)

@@ -44,7 +44,8 @@ class Arrival:
     budget_spent : bool
         Whether it ended there for want of factorisations.
     free_heights : tuple of float
-        Heights to which the ring sprang each time that it was let go on the way, m.
+        Heights to which the ring sprang each time that it was let go on the way, m; NaN where it
+        did not come free.
     shortened_steps : int
         Steps of the motion that were shortened, lest parts of the foil cross.
     """

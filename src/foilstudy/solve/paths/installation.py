@@ -86,10 +86,10 @@ class InstallationPath(RelaxationPath):
             if there is None:
                 pace = self.ramp_steps / shortening
                 release = Release(motion, self.stopping_rule(), pace, height)
-                results, free_height = let_go(problem, release, done.points)
-                done.results += results
-                done.free_heights += (free_height,)
-                here = Pose((height - free_height) / shortening, here.attitude)
+                gone = let_go(problem, release, done.points)
+                done.results += gone.results
+                done.free_heights += (gone.free_height,)
+                here = Pose((height - gone.height) / shortening, here.attitude)
             elif there != here:
                 ramp = self._way(here, there, shortening, radius)
                 done.results.append(relax(problem, motion, ramp, self.stopping_rule(), done.points))

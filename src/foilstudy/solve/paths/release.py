@@ -17,6 +17,7 @@ _WAYS_MAX = 40
 _FIRST, _LONGEST = 0.02, 0.2
 """The first way of the ring and the longest, over the distance to the height of the foil."""
 _STEPS_MIN = 100
+_ROUNDING = 1e-9
 _REST_STEPS = 1000
 """After each way at most: a foil without force has nothing to measure its residual by."""
 
@@ -43,9 +44,31 @@ class Release:
     highest: float
 
 
-def let_go(
-    problem: Problem, release: Release, points: np.ndarray | None
-) -> tuple[list[RelaxationResult], float]:
+@dataclass(frozen=True, eq=False)
+class LetGo:
+    """Where a ring has come to that was let go.
+
+    Attributes
+    ----------
+    results : list of RelaxationResult
+        One for each way; the last one diverged if any did.
+    height : float
+        m.
+    free : bool
+        Whether nothing pushes it there any more, or the foil is as high as it was made.
+    """
+
+    results: list[RelaxationResult]
+    height: float
+    free: bool
+
+    @property
+    def free_height(self) -> float:
+        """The height, NaN where the ring did not come free."""
+        return self.height if self.free else np.nan
+
+
+def let_go(problem: Problem, release: Release, points: np.ndarray | None) -> LetGo:
     """Follow the ring up, or down where the foil pulls it, by secants of its force.
 
     The other motions of the ring are held.
@@ -57,17 +80,9 @@ def let_go(
     release : Release
     points : ndarray, shape (3, rows, columns), or None
         Where the ring is let go, near rest, m; a foil that nobody has touched stays as it is.
-
-    Returns
-    -------
-    list of RelaxationResult
-        One for each way; the last one diverged if any did, and ``not_converged`` where the force
-        did not go away.
-    float
-        Height to which the ring has come, m.
     """
     if points is None:
-        return [], release.highest
+        return LetGo([], release.highest, free=True)
     done: list[RelaxationResult] = []
     height, force = _ring(problem, points)
     most = min(release.rule.relaxation_steps_max, _REST_STEPS)
@@ -76,7 +91,7 @@ def let_go(
     way = np.copysign(_FIRST * (release.highest - height), force)
     while abs(force) > enough and len(done) < _WAYS_MAX:
         way = min(way, release.highest - height)
-        if way == 0.0:  # as high as it can be
+        if release.highest - height <= _ROUNDING * height and force > 0:  # as high as it can be
             break
         ramp = Ramp(-way, max(_STEPS_MIN, round(release.pace * abs(way))))
         done.append(relax(problem, release.motion, ramp, rule, points))
@@ -88,7 +103,8 @@ def let_go(
         # where it does not soften as it goes, the force tells the direction alone
         wanted = force / stiffness if stiffness > 0 else np.copysign(longest, force)
         way = float(np.clip(wanted, -longest, longest))
-    return done, height
+    at_end = release.highest - height <= _ROUNDING * height
+    return LetGo(done, height, bool(abs(force) <= enough or at_end))
 
 
 def _ring(problem: Problem, points: np.ndarray) -> tuple[float, float]:
