@@ -7,6 +7,7 @@ The model is the one source of the defaults, of ``config/schema.json`` and of th
 from foilstudy.base.errors import ConfigError
 
 from .accuracy import Accuracy
+from .contact import Contact
 from .export import Export
 from .isolation import Isolation
 from .load import load_config, load_merged
@@ -30,6 +31,7 @@ __all__ = [
     "Accuracy",
     "Cell",
     "ConfigError",
+    "Contact",
     "CrumpleTask",
     "RefineTask",
     "Dynamics",

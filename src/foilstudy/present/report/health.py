@@ -39,7 +39,7 @@ class FlaggedCell:
 
 @dataclass(frozen=True)
 class ModelLimit:
-    """How far one configuration leaves the linear elastic, contact-free model."""
+    """How far one configuration strains beyond yield or passes through itself."""
 
     thickness_um: float
     overlength_percent: float
@@ -68,6 +68,8 @@ class Health:
     flagged
         Every realisation that is not converged, or whose reduced model is not valid over the
         whole band.
+    model
+        What the model holds, for a sentence.
     model_limits
         One entry per configuration that left the model anywhere.
     costs
@@ -81,6 +83,7 @@ class Health:
 
     counts: dict[str, int]
     flagged: tuple[FlaggedCell, ...]
+    model: str
     model_limits: tuple[ModelLimit, ...]
     configurations: int
     costs: tuple[StageCost, ...]
@@ -111,6 +114,7 @@ def assess(cube: xr.Dataset, benchmarks: Path | None = None) -> Health:
     return Health(
         counts=counts,
         flagged=_flagged(cube, status),
+        model=_model(cube),
         model_limits=_model_limits(cube),
         configurations=cube.sizes["thickness"] * cube.sizes["overlength"],
         costs=_costs(cube),
@@ -146,6 +150,12 @@ def _flagged(cube: xr.Dataset, status: xr.DataArray) -> tuple[FlaggedCell, ...]:
             )
         )
     return tuple(cells)
+
+
+def _model(cube: xr.Dataset) -> str:
+    law = "elastic up to the yield stress" if "plastic_share" in cube else "linear elastic"
+    contact = "lets parts of the foil touch" if "contact_share" in cube else "knows no contact"
+    return f"is {law} and {contact}"
 
 
 def _model_limits(cube: xr.Dataset) -> tuple[ModelLimit, ...]:
