@@ -9,12 +9,12 @@ from conftest import FOIL
 from foilstudy.base.errors import Refusal
 from foilstudy.config import load_config
 from foilstudy.config.scene import recipe_of
+from foilstudy.model.contact.options import BarrierContact
 from foilstudy.model.foil import Imperfection
 from foilstudy.model.patch import cylinder_control_points
 from foilstudy.pipeline.crumple import crumple, uncrumpled, without_imperfection
 from foilstudy.pipeline.lesser import crumple_lesser
 from foilstudy.pipeline.method import Mesh, Method
-from foilstudy.pipeline.touching import crumple_touching
 from foilstudy.solve.choices import PATHS
 from foilstudy.solve.paths.relaxation import RelaxationPath
 
@@ -62,7 +62,7 @@ def test_what_does_not_move_or_remembers_is_refused():
 
 def test_models_that_would_not_remove_it_refuse_it():
     for make in (
-        lambda: crumple_touching(FOIL, COARSE, REMOVED, RELAXED),
+        lambda: crumple(FOIL, COARSE, REMOVED, replace(RELAXED, contact=BarrierContact())),
         lambda: crumple_lesser("mass_spring", FOIL, COARSE, REMOVED, RELAXED),
     ):
         with pytest.raises(Refusal, match="after_buckling is not for a"):

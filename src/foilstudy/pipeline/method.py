@@ -95,7 +95,7 @@ class Method:
 
     def __repr__(self) -> str:
         kinds = f"path {self.path.kind}, stress removal {self.stress_removal.kind}"
-        return f"<Method: {kinds}, contact {self.contact.kind}>"
+        return f"<Method: {kinds}{f', contact {self.contact.kind}' if self.touches else ''}>"
 
     @property
     def touches(self) -> bool:
