@@ -94,7 +94,7 @@ class Method:
         require_number("waiting time of a method", self.waiting, "s", least=0)
 
     def __repr__(self) -> str:
-        kinds = f"path {self.path.kind}, stress removal {self.stress_removal.kind}"
+        kinds = f"{self.path.kind}, stress {self.stress_removal.kind}"
         return f"<Method: {kinds}{f', contact {self.contact.kind}' if self.touches else ''}>"
 
     @property
