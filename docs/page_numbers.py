@@ -20,7 +20,13 @@ from foilstudy.base.errors import Refusal
 
 ROOT = Path(__file__).parents[1]
 RESULTS = ROOT / "results"
-PAGES = ("README.md", "docs/comparison.md", "docs/method.md", "docs/tradeoff.md")
+PAGES = (
+    "README.md",
+    "docs/comparison.md",
+    "docs/method.md",
+    "docs/real-foil.md",
+    "docs/tradeoff.md",
+)
 BLOCK = re.compile(
     r"(?P<head><!-- numbers: (?P<name>\w+)(?: of (?P<studies>[\w, -]+?))? -->\n)"
     r"(?P<text>.*?)(?P<end><!-- end -->)",

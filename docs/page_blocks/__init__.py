@@ -1,7 +1,15 @@
 """What stands in the blocks of numbers of the pages, see docs/page_numbers.py."""
 
 from page_blocks.laws import differences, dimensionless, headline, law, summary, trust
-from page_blocks.realisations import costs, dynamics, eigenfrequency, shapes, steps, tradeoff
+from page_blocks.realisations import (
+    costs,
+    dynamics,
+    eigenfrequency,
+    explanation,
+    shapes,
+    steps,
+    tradeoff,
+)
 from page_blocks.stiffness import beside, bound, experiment, prestress, simulation, variability
 from page_blocks.study import Study
 
@@ -12,6 +20,7 @@ BLOCKS = {
     for each in (
         headline, law, differences, dimensionless, summary, trust, beside, simulation, experiment,
         bound, prestress, variability, dynamics, eigenfrequency, shapes, steps, costs, tradeoff,
+        explanation,
     )
 }  # fmt: skip
 """Functions of studies that yield lines, by the name of their block."""

@@ -148,3 +148,8 @@ def costs(study: Study) -> Iterator[str]:
 def tradeoff(study: Study) -> Iterator[str]:
     """The tables of the charts of speed against accuracy."""
     yield from study.file("tradeoff.md").read_text("utf-8").splitlines()
+
+
+def explanation(study: Study) -> Iterator[str]:
+    """Laws of the models of the real foil, and the bounds."""
+    yield from study.file("laws.md").read_text("utf-8").splitlines()
