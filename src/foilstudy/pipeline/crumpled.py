@@ -29,7 +29,7 @@ from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.model.patch import Patch
 from foilstudy.pipeline.evidence import evidence_of
 from foilstudy.pipeline.method import Mesh, Method
-from foilstudy.pipeline.rest import STRESS_KEPT_MIN, Rest
+from foilstudy.pipeline.rest import STRESS_KEPT_MIN, Rest, refuse_rest
 from foilstudy.pipeline.shape import Shape
 from foilstudy.pipeline.static import (
     MeshLimit,
@@ -161,6 +161,10 @@ class Crumpled(Shape):
         problem.restore(before.recorded())
         return problem
 
+    def before_waiting(self) -> Self:
+        """The same shape at the same state, with all its stress: as its way has left it."""
+        return replace(self, rest=None) if self.rest else self
+
     def waited(self, seconds: float) -> Self:
         """The same foil after it has stood in its shape; it keeps less of its stress.
 
@@ -168,7 +172,14 @@ class Crumpled(Shape):
         ----------
         seconds : float
             Since it came to rest, s; its material says how much that takes.
+
+        Raises
+        ------
+        Refusal
+            If parts of the foil touch or it is heavy: the shape would not stay in equilibrium.
         """
+        if seconds:
+            refuse_rest(self.foil, self.method.touches)
         kept = max(STRESS_KEPT_MIN, self.foil.material.stress_kept(seconds))
         return replace(self, rest=Rest(kept, self.points)) if kept < 1 else self
 
