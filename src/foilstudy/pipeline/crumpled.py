@@ -150,9 +150,17 @@ class Crumpled(Shape):
         """The potential energy of the foil, at the state in which it has arrived."""
         problem = super().problem()
         if self.arrival and self.arrival.state:
-            # what has let go since has no memory, and its state comes last
-            problem.state = self.arrival.state[: len(problem.terms)]
+            # contact and what has let go since have no memory, and come last
+            known = self.arrival.state[: len(problem.terms)]
+            problem.state = *known, *problem.state[len(known) :]
         return self._rested(problem) if self.rest else problem
+
+    def _remembered(self) -> Problem:
+        """Without contact, which remembers nothing and which a finer mesh may not carry."""
+        problem = Problem(self.stressed, *super().terms())
+        if self.arrival and self.arrival.state:
+            problem.state = self.arrival.state[: len(problem.terms)]
+        return problem
 
     def _rested(self, before: Problem) -> Problem:
         """The foil of before with all its moduli scaled down, and what has let go beside it."""
@@ -196,11 +204,11 @@ class Crumpled(Shape):
             refined = replace(refined, rest=self.rest.refined())
         if not (self.arrival and self.arrival.state):
             return refined
-        return refined._remembering(self.problem().split())
+        return refined._remembering(self._remembered().split())
 
     def _remembering(self, values: Mapping[str, np.ndarray]) -> Self:
         """At the state that arrays tell of, where a term has a memory that lasts."""
-        problem = Shape.problem(self)
+        problem = replace(self, arrival=None)._remembered()
         if not problem.has_memory:
             return self
         problem.restore(values)
