@@ -534,3 +534,16 @@ def test_nothing_goes_beyond_the_planes(leaning):
     assert np.isinf(term.force(beyond, force)[0])
     with pytest.raises(Refusal, match="beyond the plane of a ring"):
         RingPlanes(sheet.section).force(beyond, force)
+
+
+def test_a_plastic_foil_that_touches_is_measured_on_meshes_that_cannot_carry_its_reach(touching):
+    """A finer mesh takes the plastic strain, and of contact nothing."""
+    plastic = replace(touching.foil.material, law="plastic")
+    foil = replace(touching.foil, material=plastic, reference_height=0.15)
+    reach = 0.3 * MESH.element_size
+    method = Method(METHOD.path, contact=BarrierContact(reach=reach))
+    crumpled = crumple(foil, MESH, method=method)
+    with pytest.raises(Refusal, match="reduce the reach"):
+        crumpled.refined().contacts()
+    assert np.isfinite(crumpled.mesh_limit(2).stiffness).all()
+    assert crumpled.refined().arrival.state[1].accumulated.max() > 0

@@ -7,7 +7,10 @@ import pytest
 from conftest import FEP, FOIL
 
 from foilstudy.base.errors import Refusal
+from foilstudy.model.contact.options import BarrierContact
 from foilstudy.model.foil import Imperfection
+from foilstudy.model.patch import knot_points
+from foilstudy.model.shell.intersection import self_crossing_share
 from foilstudy.pipeline.crumple import crumple
 from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.pipeline.one_sided import one_sided
@@ -88,3 +91,12 @@ def test_a_foil_springs_back_to_where_nothing_holds_it(virgin):
     assert abs(free.force_left) < 0.03
     before, after = (each.problem().numbers()["dissipated_work"] for each in (virgin, free.foil))
     assert after >= before
+
+
+def test_cycles_and_the_way_back_mind_contact():
+    """The motion is that of the problem whose contact it minds."""
+    foil = replace(FOIL, reference_height=0.26)
+    fitted = crumple(foil, COARSE, Imperfection(seed=3), replace(QUICK, contact=BarrierContact()))
+    cycled = shaken_down(fitted, 2e-3, cycles_max=1)
+    assert cycled.status in ("converged", "not_converged") and cycled.cycles == 1, cycled.message
+    assert self_crossing_share(knot_points(cycled.foil.points)) == 0.0

@@ -186,3 +186,10 @@ def test_a_ring_that_does_not_come_free_has_no_free_height(monkeypatch):
     monkeypatch.setattr("foilstudy.solve.paths.release._WAYS_MAX", 1)
     crumpled = fitted(Move(1.0), Move(release=True), steps=200)
     assert crumpled.status == "converged" and np.isnan(crumpled.arrival.free_heights).all()
+
+
+def test_free_heights_outlast_the_finer_mesh():
+    path = InstallationPath(ramp_steps=200, moves=(Move(1.0), Move(release=True)))
+    crumpled = crumple(FOIL, Mesh(10e-3, ramp_coarsenings=1), method=Method(path))
+    (height,) = crumpled.arrival.free_heights
+    assert FOIL.gap_height < height <= FOIL.reference_height * (1 + 1e-9)

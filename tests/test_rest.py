@@ -9,15 +9,19 @@ from conftest import FEP, FOIL
 from foilstudy.base.errors import Refusal
 from foilstudy.base.record import read_record
 from foilstudy.config import ConfigError, load_config
+from foilstudy.measure.verdicts import Evidence
+from foilstudy.model.contact.options import BarrierContact
 from foilstudy.model.foil import Imperfection
 from foilstudy.model.materials import RELAXATION_ONSET
 from foilstudy.model.patch import RING_ROWS
-from foilstudy.pipeline.crumple import crumple
+from foilstudy.model.specimen import Specimen
+from foilstudy.pipeline.crumple import crumple, uncrumpled
 from foilstudy.pipeline.crumpled import Crumpled
+from foilstudy.pipeline.evidence import seen_in
 from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.pipeline.rest import Rest
 from foilstudy.solve.paths.relaxation import RelaxationPath
-from foilstudy.study.sweep.crumple import crumple_job
+from foilstudy.study.sweep.crumple import _numbers, crumple_job, values_of
 
 HOUR, DAY = 3600.0, 86400.0
 RELAXING = replace(FEP, relaxation_per_decade=0.1)
@@ -131,3 +135,26 @@ def test_half_of_it_is_refused(sections, sentence):
 def test_negative_time_is_refused():
     with pytest.raises(Refusal, match="waiting time of a method"):
         Method(waiting=-1.0)
+
+
+def test_waiting_takes_back_nothing_that_was_done(fitted):
+    waited = replace(fitted, recipe=replace(fitted.recipe, method=Method(waiting=DAY))).waited(DAY)
+    before, after = _numbers(fitted), _numbers(waited)
+    assert after["reaction_force"] < 0.8 * before["reaction_force"]
+    assert after.get("dissipated_work") == before.get("dissipated_work")
+    assert seen_in(waited, waited.arrival) == seen_in(fitted, fitted.arrival)
+    of_record = [
+        Evidence.of(each.status, values_of(each)).work_over_energy for each in (fitted, waited)
+    ]
+    assert of_record[1] == pytest.approx(of_record[0], rel=1e-9)
+
+
+def test_what_carries_a_weight_cannot_wait():
+    heavy = replace(FOIL, material=RELAXING, specimen=Specimen(gravity=9.81))
+    with pytest.raises(Refusal, match="weight of the foil"):
+        crumple(heavy, Mesh(20e-3), method=Method(waiting=DAY))
+    with pytest.raises(Refusal, match="weight of the foil"):
+        uncrumpled(heavy, Mesh(20e-3)).waited(DAY)
+    touching = uncrumpled(FOIL, Mesh(20e-3), method=Method(contact=BarrierContact()))
+    with pytest.raises(Refusal, match="closed contacts"):
+        touching.waited(DAY)

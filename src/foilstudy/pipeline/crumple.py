@@ -12,6 +12,7 @@ from foilstudy.model.imperfections.cylinder import imperfect_cylinder
 from foilstudy.model.patch import RING_ROWS
 from foilstudy.pipeline.crumpled import Crumpled, Recipe
 from foilstudy.pipeline.method import Mesh, Method
+from foilstudy.pipeline.rest import refuse_rest
 from foilstudy.solve.paths import Arrival
 from foilstudy.solve.paths.installation import InstallationPath
 from foilstudy.solve.paths.relaxation import RelaxationPath
@@ -138,6 +139,8 @@ def uncrumpled(
             f"the path {recipe.method.path.kind} begins in equilibrium, between true rings; use "
             "relaxation, or leave out ellipticity and tilt."
         )
+    if recipe.method.waiting:
+        refuse_rest(foil, recipe.method.touches)
     if recipe.method.touches:
         _see_that_contact_is_kept(recipe)
     patch = recipe.mesh.of_ramp().patch(foil)
@@ -149,11 +152,6 @@ def uncrumpled(
 def _see_that_contact_is_kept(recipe: Recipe) -> None:
     path = recipe.method.path
     refuse_removal(recipe.imperfection, "a foil whose parts touch")
-    if recipe.method.waiting:
-        raise Refusal(
-            "stress that relaxes would take the stiffness of closed contacts with it; leave out "
-            "the waiting or the contact."
-        )
     if recipe.mesh.ramp_coarsenings:
         raise Refusal(
             "a crumple with contact cannot be pushed together on a coarser mesh, as it may cross "

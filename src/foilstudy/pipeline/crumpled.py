@@ -29,7 +29,7 @@ from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.model.patch import Patch
 from foilstudy.pipeline.evidence import evidence_of
 from foilstudy.pipeline.method import Mesh, Method
-from foilstudy.pipeline.rest import STRESS_KEPT_MIN, Rest
+from foilstudy.pipeline.rest import STRESS_KEPT_MIN, Rest, refuse_rest
 from foilstudy.pipeline.shape import Shape
 from foilstudy.pipeline.static import (
     MeshLimit,
@@ -150,9 +150,17 @@ class Crumpled(Shape):
         """The potential energy of the foil, at the state in which it has arrived."""
         problem = super().problem()
         if self.arrival and self.arrival.state:
-            # what has let go since has no memory, and its state comes last
-            problem.state = self.arrival.state[: len(problem.terms)]
+            # contact and what has let go since have no memory, and come last
+            known = self.arrival.state[: len(problem.terms)]
+            problem.state = *known, *problem.state[len(known) :]
         return self._rested(problem) if self.rest else problem
+
+    def _remembered(self) -> Problem:
+        """Without contact, which remembers nothing and which a finer mesh may not carry."""
+        problem = Problem(self.stressed, *super().terms())
+        if self.arrival and self.arrival.state:
+            problem.state = self.arrival.state[: len(problem.terms)]
+        return problem
 
     def _rested(self, before: Problem) -> Problem:
         """The foil of before with all its moduli scaled down, and what has let go beside it."""
@@ -161,6 +169,10 @@ class Crumpled(Shape):
         problem.restore(before.recorded())
         return problem
 
+    def before_waiting(self) -> Self:
+        """The same shape at the same state, with all its stress: as its way has left it."""
+        return replace(self, rest=None) if self.rest else self
+
     def waited(self, seconds: float) -> Self:
         """The same foil after it has stood in its shape; it keeps less of its stress.
 
@@ -168,7 +180,14 @@ class Crumpled(Shape):
         ----------
         seconds : float
             Since it came to rest, s; its material says how much that takes.
+
+        Raises
+        ------
+        Refusal
+            If parts of the foil touch or it is heavy: the shape would not stay in equilibrium.
         """
+        if seconds:
+            refuse_rest(self.foil, self.method.touches)
         kept = max(STRESS_KEPT_MIN, self.foil.material.stress_kept(seconds))
         return replace(self, rest=Rest(kept, self.points)) if kept < 1 else self
 
@@ -185,11 +204,11 @@ class Crumpled(Shape):
             refined = replace(refined, rest=self.rest.refined())
         if not (self.arrival and self.arrival.state):
             return refined
-        return refined._remembering(self.problem().split())
+        return refined._remembering(self._remembered().split())
 
     def _remembering(self, values: Mapping[str, np.ndarray]) -> Self:
         """At the state that arrays tell of, where a term has a memory that lasts."""
-        problem = Shape.problem(self)
+        problem = replace(self, arrival=None)._remembered()
         if not problem.has_memory:
             return self
         problem.restore(values)

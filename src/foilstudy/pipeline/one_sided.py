@@ -17,7 +17,7 @@ from foilstudy.measure.stiffness.directional import DIRECTIONS, MOTIONS
 from foilstudy.model.patch import RING_ROWS
 from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.solve.equilibrium.settle import minimised
-from foilstudy.solve.problem import Problem
+from foilstudy.solve.problem import Problem, Telling
 
 _TOP = slice(-RING_ROWS, None)
 AMPLITUDE = 1 / 50
@@ -153,4 +153,6 @@ def ring_force(problem: Problem, points: np.ndarray) -> np.ndarray:
 
 def dissipated_work(problem: Problem) -> float:
     """What plastic flow has used up until now, J; nothing where there is none."""
-    return problem.numbers().get("dissipated_work", 0.0)
+    pairs = zip(problem.terms, problem.state, strict=True)
+    told = [t.numbers(s) for t, s in pairs if isinstance(t, Telling) and s is not None]
+    return sum((each.get("dissipated_work", 0.0) for each in told), start=0.0)

@@ -7,6 +7,7 @@ from typing import Self
 
 import numpy as np
 
+from foilstudy.base.errors import Refusal
 from foilstudy.measure.stiffness.stress_removal import Reset
 from foilstudy.model.foil import Foil
 from foilstudy.model.patch import refine
@@ -73,3 +74,22 @@ class Rest:
         whole = Shell(replace(shape.stressed.section, law=Elastic(bound)), shape.element)
         renewed = Renewed(fresh, 1 - self.stress_kept)
         return Problem(left.shell, *left.terms[1:], renewed, whole=whole)
+
+
+def refuse_rest(foil: Foil, touches: bool) -> None:
+    """See that nothing but its own stress holds a foil that is to wait in its shape.
+
+    Raises
+    ------
+    Refusal
+    """
+    if touches:
+        raise Refusal(
+            "stress that relaxes would take the stiffness of closed contacts with it; leave out "
+            "the waiting or the contact."
+        )
+    if foil.specimen.gravity:
+        raise Refusal(
+            "stress that relaxes would no longer carry the weight of the foil; leave out the "
+            "waiting or the gravity."
+        )

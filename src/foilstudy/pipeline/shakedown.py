@@ -124,7 +124,8 @@ def _ended(status, message, amplitude, dissipated, reactions, foil) -> Shakedown
 
 def _moved(crumpled: Crumpled, path: RelaxationPath, shortening: float) -> Crumpled:
     """The ring moved at the pace of the ramp, and the foil settled there."""
-    problem, motion = crumpled.problem(), path.scheme.start(crumpled.problem())
+    problem = crumpled.problem()
+    motion = path.scheme.start(problem)  # its mass minds the contact of the same problem
     pace = path.ramp_steps / crumpled.foil.shortening
     ramp = Ramp(shortening, max(_STEPS_MIN, round(pace * abs(shortening))))
     relaxed = relax(problem, motion, ramp, path.stopping_rule(), crumpled.points)

@@ -68,6 +68,10 @@ class Shape:
         problem.beginning = clamped_shape(self.foil.specimen.clamps, self.reference)
         return problem
 
+    def before_waiting(self) -> Self:
+        """The shape as its way has left it."""
+        return self
+
     def relieved(self, removal: StressRemoval | None = None) -> Relieved:
         """The shell that is stress-free in this shape."""
         return (removal or Reset()).relieved(self.stressed, self.points)

@@ -129,6 +129,8 @@ def _work_of_record(values: Mapping[str, Any]) -> float:
         for name, value in values.items()
         if name.startswith("history_") and name.endswith("_energy") and len(value)
     )
+    # what waiting has taken off the energy, the way has put in
+    stored /= float(values.get("stress_kept", 1.0))
     used_up = float(values.get("dissipated_work", 0.0))
     names = ("step", "height", "reaction_force", "kinetic_energy")
     way = Way(*(np.asarray(values[f"history_{name}"]) for name in names))

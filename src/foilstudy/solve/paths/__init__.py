@@ -80,6 +80,8 @@ class Arrival:
             hessians=earlier.hessians + self.hessians,
             history=earlier.history,
             costs=costs,
+            free_heights=earlier.free_heights + self.free_heights,
+            shortened_steps=earlier.shortened_steps + self.shortened_steps,
         )
 
     def __repr__(self) -> str:

@@ -132,7 +132,16 @@ def _numbers(crumpled: Crumpled) -> dict[str, float]:
         **sensors(crumpled),
         **({"free_height": arrival.free_heights[-1]} if arrival.free_heights else {}),
         **problem.numbers(),
+        **_used_up(crumpled),
         **({"stress_kept": crumpled.stress_kept} if crumpled.beyond_elastic else {}),
         **localisation(patch, points),
         **({"contact_shortened_steps": float(arrival.shortened_steps)} if touches else {}),
     }
+
+
+def _used_up(crumpled: Crumpled) -> dict[str, float]:
+    """Waiting weakens what is left of a foil, but takes back nothing that was used up before."""
+    if not crumpled.rest:
+        return {}
+    before = crumpled.before_waiting().problem().numbers()
+    return {name: value for name, value in before.items() if name == "dissipated_work"}
