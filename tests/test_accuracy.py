@@ -210,6 +210,15 @@ def refinements_expected(**sections):
     return [len(each.elements) - 1 for each in expected(study(**sections)).configurations]
 
 
+def test_sweeps_of_amplitude_are_counted_for_each_motion():
+    """Axially one, radially two: the directions of the stiffness have so many axes."""
+    plain, axial, both = (
+        expected(study(amplitude={"directions": names})).configurations[0].seconds_of["response"]
+        for names in ([], ["axial"], ["axial", "radial"])
+    )
+    assert axial > 2 * plain and both - plain == pytest.approx(3 * (axial - plain))
+
+
 def test_a_shape_is_expected_to_be_refined_until_its_error_meets_the_demand():
     """Of which the width of the elements decides, where all meshes agree otherwise."""
     alike = np.array([1e4, 3e4])

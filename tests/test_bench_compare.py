@@ -16,7 +16,7 @@ from foilstudy.bench.measured.conversion import UNITS, as_stiffness, unit_named
 from foilstudy.bench.measured.table import chosen
 from foilstudy.command import main
 from foilstudy.present.files import StudyFiles
-from foilstudy.present.measured import MeasuredFile
+from foilstudy.present.measured import MeasuredFile, findings
 from foilstudy.present.report import write_report
 from foilstudy.present.statistics.tables import write_tables
 
@@ -175,6 +175,15 @@ def test_without_factors_the_labels_of_the_axes_count(tmp_path):
         ("frequency (Hz),real (m/N),imag (m/N)\n1,0,0\n2,3,0\n", "or zero"),
         ("frequency (Hz),real (N/m),imag (N/m)\n1,2,0\n", "has 2 lines"),
         ("frequency (Hz)\n1\n2\n", "holds no response"),
+        ("frequency,real (N/m),imag (N/m)\n1,2,0\n2,3,0\n", "frequency states no unit"),
+        (
+            "frequency (Hz),real (N/m),imag (N/m),coherence\n1,2,0,99\n2,3,0,98\n",
+            "coherence is not within 0 and 1; give it as a share",
+        ),
+        (
+            "frequency (Hz),real (N/m),imag (N/m),deviation (N/m)\n1,2,0,-1\n2,3,0,1\n",
+            "standard deviation is negative",
+        ),
         ("frequency (Hz),a real (N/m),b real (N/m)\n1,1,1\n2,1,1\n", "2 functions fit; name one"),
     ],
 )
@@ -229,6 +238,11 @@ def test_a_file_that_is_not_there_is_refused(tmp_path):
 
 def test_every_format_of_the_registry_loads():
     assert all(callable(READERS[name]) for name in READERS)
+
+
+def test_a_response_without_name_is_called_by_none(tmp_path):
+    with pytest.raises(Refusal, match="its one response has no name; leave --function out"):
+        chosen(tmp_path, [""], "axial")
 
 
 def test_an_exact_name_wins_over_longer_ones(tmp_path):
@@ -334,6 +348,16 @@ def test_without_coherence_at_low_frequencies_there_is_no_static_value(cube):
     estimate.coherence[own.frequencies < 15] = 0.5
     found = Comparison.of(estimate, own)
     assert found.static is None and found.frac_range[1] == pytest.approx(1)
+    assert "ratio" in dict(findings(found))
+
+
+def test_without_coherence_anywhere_it_says_so_and_no_number(cube):
+    own = simulated(cube, CASE)
+    estimate = one_of(own)
+    estimate.coherence[:] = 0.5
+    said = dict(findings(Comparison.of(estimate, own)))
+    assert said["not compared"] == "no value of enough coherence in the whole band"
+    assert "nan" not in " ".join(said.values())
 
 
 @pytest.mark.parametrize(

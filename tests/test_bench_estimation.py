@@ -211,7 +211,7 @@ def test_blocks_with_overlap_equal_those_cut_by_hand():
 
 @pytest.mark.parametrize("name", list(ESTIMATORS))
 def test_estimators_and_coherence_equal_those_from_the_spectra_of_scipy(name):
-    """The definitions of pyFRF: H1 = S_xy / S_xx, H2 = S_yy / S_yx, Hv their geometric mean."""
+    """H1 = S_xy / S_xx, H2 = S_yy / S_yx, Hv their geometric mean."""
     from scipy.signal import coherence, csd, welch
 
     x, n = noise(60, 1), noise(60, 2)
@@ -224,6 +224,39 @@ def test_estimators_and_coherence_equal_those_from_the_spectra_of_scipy(name):
     found = ESTIMATORS[name](*ours.of(0, 1))
     assert np.allclose(found, theirs[1:201], rtol=1e-10)
     assert np.allclose(ours.coherence(0, 1), coherence(x, y, **how)[1][1:201], rtol=1e-10)
+
+
+def pyfrf_of(x, y):
+    """pyFRF on blocks of 2 s that overlap by half, cut and windowed here: its own Hann window is
+    the symmetric one."""
+    from pyFRF import FRF
+
+    window = 0.5 - 0.5 * np.cos(2 * np.pi * np.arange(512) / 512)
+    cut = [np.lib.stride_tricks.sliding_window_view(each, 512)[::256] for each in (x, y)]
+    blocks = [(each - each.mean(axis=1, keepdims=True)) * window for each in cut]
+    return FRF(int(RATE), *blocks, resp_type="d")
+
+
+def test_h1_h2_and_coherence_are_those_of_pyfrf():
+    x, n = noise(60, 1), noise(60, 2)
+    y = np.convolve(x, [0.5, 1.0, -0.3])[: x.size] + 0.4 * n
+    ours, theirs = averaged(recorded(x, y), Blocks(2.0, 0.5), 100), pyfrf_of(x, y)
+    assert np.array_equal(theirs.get_f_axis()[1:201], ours.frequencies)
+    for name in ("h1", "h2"):
+        known = theirs.get_FRF(name.upper())[0, 0, 1:201]
+        assert np.allclose(ESTIMATORS[name](*ours.of(0, 1)), known, rtol=1e-10)
+    assert np.allclose(ours.coherence(0, 1), theirs.get_coherence()[0, 1:201], rtol=1e-10)
+
+
+@pytest.mark.parametrize("line", [0, 80, 199])
+def test_hv_is_that_of_pyfrf_where_both_signals_are_of_one_size(line):
+    """Its Hv takes noise of one size, in whatever units, at both; ours one share of either."""
+    x, n = noise(60, 1), noise(60, 2)
+    y = np.convolve(x, [0.5, 1.0, -0.3])[: x.size] + 0.4 * n
+    spectra = averaged(recorded(x, y), Blocks(2.0, 0.5), 100).of(0, 1)
+    size = np.sqrt(spectra[0] / spectra[1])[line]
+    theirs = pyfrf_of(x, size * y).get_FRF("Hv")[0, 0, 1 + line] / size
+    assert ESTIMATORS["hv"](*spectra)[line] == pytest.approx(theirs, rel=1e-10)
 
 
 def test_independent_averages_of_overlapping_blocks():

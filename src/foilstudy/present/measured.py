@@ -91,9 +91,13 @@ def findings(comparison: Comparison) -> Iterator[tuple[str, str]]:
         f"{_interval(mean.mean, mean.low, mean.high)}, mean static stiffness of "
         f"{plural(mean.n, 'realisation')}",
     )
+    if not measured.trusted.any():
+        yield "not compared", "no value of enough coherence in the whole band"
+        return
     if comparison.static is not None:
         yield "ratio", f"{comparison.static.value / mean.mean:.3g} measured over simulated, static"
-    yield "", f"{comparison.ratio:.3g} over all frequencies, median"
+    word = "" if comparison.static is not None else "ratio"
+    yield word, f"{comparison.ratio:.3g} over all frequencies, median"
     least, most = comparison.frac_range
     yield "FRAC", f"{comparison.frac:.3f} with the median, {least:.3f} to {most:.3f} with one each"
     outside = float((comparison.excursion != 1).mean())

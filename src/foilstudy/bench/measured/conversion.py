@@ -61,6 +61,9 @@ UNITS: dict[str, tuple[Quantity, float]] = {
 }
 """Units as they are written in a file: what they are units of, and their size in SI."""
 
+_ROUNDING = 1e-3
+"""How far above 1 a coherence may be that was rounded."""
+
 
 def unit_named(name: str, path: Path) -> tuple[Quantity, float]:
     """Quantity and size of a unit.
@@ -96,8 +99,8 @@ def as_stiffness(
     Raises
     ------
     Refusal
-        If the frequencies are not positive and rising, or a value is not finite or, as a motion
-        per force, zero.
+        If the frequencies are not positive and rising, a value is not finite or, as a motion per
+        force, zero, or a deviation or coherence is none.
     """
     frequencies = np.asarray(frequencies, float)
     values = np.asarray(values, complex)
@@ -118,6 +121,12 @@ def as_stiffness(
         raise Refusal(
             f"{path}: values of the {quantity.name} are missing, infinite or zero; leave these "
             "frequencies out."
+        )
+    if (known[0] < 0).any():
+        raise Refusal(f"{path}: a standard deviation is negative; correct the deviation.")
+    if ((known[1] < 0) | (known[1] > 1 + _ROUNDING)).any():
+        raise Refusal(
+            f"{path}: the coherence is not within 0 and 1; give it as a share, not in per cent."
         )
     stiffness = quantity.stiffness(frequencies, values)
     return Estimate(frequencies, stiffness, known[0] * np.abs(stiffness / values), known[1])

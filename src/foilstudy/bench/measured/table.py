@@ -37,7 +37,8 @@ def read(path: Path, function: str | None = None) -> Estimate:
         words, unit = found["name"].lower().split(), found["unit"] or ""
         if words == ["frequency"]:
             if unit != "Hz":
-                raise Refusal(f"{path}: the frequency is in {unit!r}; give it in Hz.")
+                stated = f"is in {unit!r}" if unit else "states no unit"
+                raise Refusal(f"{path}: the frequency {stated}; give it in Hz, 'frequency (Hz)'.")
             frequencies = values
         elif words and words[-1] in _PARTS:
             name = " ".join(words[:-1])
@@ -88,6 +89,8 @@ def chosen(path: Path, names: list[str], function: str | None) -> str:
     shown = ", ".join(repr(name) for name in (fits or names)[:6])
     more = "" if len(fits or names) <= 6 else f" and {len(fits or names) - 6} more"
     what = f"{len(fits)} functions fit" if fits else f"no function is called {function!r}"
+    if names == [""]:
+        raise Refusal(f"{path}: {what}, and its one response has no name; leave --function out.")
     hint = "" if fits else did_you_mean(function or "", names)
     raise Refusal(f"{path}: {what}; {hint}name one of {shown}{more} with --function.")
 

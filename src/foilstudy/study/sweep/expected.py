@@ -9,6 +9,7 @@ Time is a sum of power laws, each with its reason:
   the steps it is told to take;
 - a static stiffness costs a factorisation, on every mesh of the ladder: twice on the mesh of the
   crumple (stress-free and pre-stressed) and on the first refinement (corner and staggered element);
+- the amplitude at which the stiffness has changed takes so many of these a motion of the ring;
 - where an error of it is demanded, the ladder ends on the first mesh that meets it, of which the
   element size over sqrt(R t) says most (`foilstudy.model.mesh_size`);
 - a reduction costs a factorisation and the projection on its coordinates, elements times their
@@ -33,6 +34,7 @@ import numpy as np
 from foilstudy.base.numerals import number
 from foilstudy.config import Cell, ResponseTask, StudyConfig
 from foilstudy.config.foils import foil_of, patch_of
+from foilstudy.measure.stiffness.directional import MOTIONS
 from foilstudy.model.mesh_size import stiffness_error_at
 
 __all__ = [
@@ -77,6 +79,7 @@ class CostModel:
     contact: float = (
         2.2  # of the time of a step, for each unit of overlength, where parts may touch
     )
+    sweep: float = 25  # static stiffnesses until a motion of the ring has changed it by 1 %
     start: float = 3.47  # seconds until the first job starts, and of Snakemake in all
 
     def steps_after_ramp(self, slenderness: float) -> float:
@@ -95,6 +98,11 @@ class CostModel:
     def static_seconds(self, meshes: Sequence[int]) -> float:
         """Time of the static stiffness on a ladder of meshes, elements each, coarsest first."""
         return sum(map(self.solve_seconds, (*meshes, *meshes[:2])))  # the first ones twice
+
+    def sweep_seconds(self, elements: float, directions: Sequence[str]) -> float:
+        """Time of the sweeps along directions; the radial one has two axes."""
+        motions = sum(len(MOTIONS[direction]) for direction in directions)
+        return motions * self.sweep * self.solve_seconds(elements)
 
     def reduced_coordinates(self, slenderness: float, band_hz: float) -> float:
         """Coordinates of the reduced model of a foil of R/t, up to the end of the band."""
@@ -254,7 +262,9 @@ def _configuration(study: StudyConfig, cell: Cell, model: CostModel) -> Expected
     dynamic = model.dynamic_seconds(elements, coordinates)
     seconds = {
         "crumple": crumpling,
-        "response": model.static_seconds(meshes) + dynamic,
+        "response": model.static_seconds(meshes)
+        + model.sweep_seconds(elements, study.amplitude.directions)
+        + dynamic,
     }
     if relaxed:
         seconds["refine"] = sum(model.crumple_seconds(mesh, relaxing) for mesh in relaxed)
