@@ -278,6 +278,22 @@ def test_modes_of_a_free_cylinder(solver):
     assert modes.eigenvalues[6] > 1e-3 * limit
 
 
+def test_modes_far_below_all_others_are_found(solver):
+    """After one solution with them all vectors look alike, as with foil very thin for its mesh."""
+    stiffness = sparse.diags_array(np.r_[1.0, 2.0, np.geomspace(1e12, 1e14, 98)]).tocsr()
+    modes = modes_below(stiffness, sparse.eye_array(100).tocsr(), 3.0)
+    np.testing.assert_allclose(modes.eigenvalues, [1, 2], rtol=1e-9)
+    np.testing.assert_allclose(np.abs(modes.shapes[:2]), np.eye(2), atol=1e-6)
+
+
+def test_a_mode_search_that_breaks_down_says_what_to_do(solver):
+    """Nothing is orthonormal by a mass that is mostly negative."""
+    stiffness = sparse.diags_array(np.geomspace(1, 2, 100)).tocsr()
+    mass = sparse.diags_array(np.r_[np.full(4, 1.0), np.full(96, -1.0)]).tocsr()
+    with pytest.raises(SolveError, match="broke down.* finer mesh"):
+        modes_below(stiffness, mass, 1.05)
+
+
 @pytest.mark.parametrize("copies", [2, 3, 8])
 def test_repeated_eigenvalues_are_all_found(solver, copies):
     one = plate(8, 12)

@@ -226,14 +226,27 @@ class _LanczosBasis:
         """Mass-orthonormal columns, their mass products and the triangular factor."""
         total = np.eye(block.shape[1])
         for _ in range(2):
-            gram = block.T @ (self._mass @ block)
             try:
-                factor = cholesky(0.5 * (gram + gram.T), lower=False)
-            except np.linalg.LinAlgError as error:
-                raise SolveError("the Krylov space of the mode search broke down") from error
+                factor = self._triangle(block)
+            except np.linalg.LinAlgError:  # columns nearly alike, more than their products can tell
+                block, apart = np.linalg.qr(block)
+                total = apart @ total
+                try:
+                    factor = self._triangle(block)
+                except np.linalg.LinAlgError as error:
+                    raise SolveError(
+                        "the mode search broke down, as that of a foil too thin for its mesh; use "
+                        "a finer mesh or a thicker foil"
+                    ) from error
             block = solve_triangular(factor, block.T, trans="T").T
             total = factor @ total
         return block, self._mass @ block, total
+
+    def _triangle(self, block: np.ndarray) -> np.ndarray:
+        """Cholesky factor of the products of the columns by mass."""
+        gram = block.T @ (self._mass @ block)
+        refuse_not_finite(gram, "the Krylov space of the mode search")
+        return cholesky(0.5 * (gram + gram.T), lower=False)
 
     def ritz_pairs(self):
         """Ritz values, their coordinates in the basis, and residual norms."""
