@@ -195,6 +195,7 @@ def test_rings_out_of_true_keep_what_their_rows_have_to_each_other():
     "specimen, method, words",
     [
         (Specimen(clamps=Clamps(tilt=0.01)), Method(NewtonPath()), "true rings"),
+        (Specimen(clamps=Clamps(ellipticity=0.05)), None, "bends rings"),
     ],
 )
 def test_what_does_not_go_together_is_refused(specimen, method, words):
@@ -274,6 +275,11 @@ def test_constants_are_drawn_from_their_range_for_each_realisation():
         ({"specimen": {"youngs_modulus_range_mpa": [600, 400]}}, "rising"),
         ({"specimen": {"seam_width_mm": 5.0}, "material": {"law": "plastic"}}, "law: elastic"),
         ({"specimen": {"ring_tilt_deg": 1.0}, "method": {"path": "newton"}}, "true rings"),
+        ({"specimen": {"ring_ellipticity_mm": -60}}, "ring_ellipticity_mm bends rings"),
+        (
+            {"specimen": {"ring_tilt_deg": 10}, "sheet": {"gap_height_mm": 20}},
+            "ring_tilt_deg brings the rings",
+        ),
         ({"specimen": {"seam_width_mm": 5.0}, "export": {"formats": ["calculix"]}}, "calculix"),
     ],
 )

@@ -1,5 +1,6 @@
 """The stiffness of a foil as it stands, static and dynamic, and how records and page show it."""
 
+import json
 from dataclasses import replace
 
 import numpy as np
@@ -9,6 +10,7 @@ from synthetic import make_cube
 
 from foilstudy.base.cube import open_cube
 from foilstudy.base.record import read_record
+from foilstudy.command.check import check
 from foilstudy.config import load_config
 from foilstudy.measure.dynamics import DynamicsOptions
 from foilstudy.measure.stiffness import fixed_stiffness
@@ -24,6 +26,7 @@ from foilstudy.solve.paths.relaxation import RelaxationPath
 from foilstudy.study.sweep.crumple import crumple_job
 from foilstudy.study.sweep.cube import gather
 from foilstudy.study.sweep.cylinder import cylinder_bounds
+from foilstudy.study.sweep.expected import expected
 from foilstudy.study.sweep.origins import cell_folder
 from foilstudy.study.sweep.respond import respond_job
 
@@ -125,3 +128,28 @@ def test_the_page_says_how_many_would_run_away():
     cube["true_ring_negative_eigenvalues"], cube["true_negative_eigenvalues"] = loose, 0 * loose
     (sentence,) = true_findings(cube)
     assert "1 would push a free top ring" in sentence
+
+
+def test_what_is_more_than_elastic_costs_more_and_check_says_what_it_is(tmp_path, capsys):
+    sections = {"sweep": {"thickness_um": [500], "reference_height_mm": [170]}}
+    real = sections | {
+        "material": {"law": "plastic", "relaxation_per_decade": 0.1},
+        "method": {"path": "installation"},
+        "installation": {"moves": [{"shorten_percent": 110}], "waiting_hours": 24},
+        "specimen": {"ring_tilt_deg": 1},
+    }
+    elastic, plastic = (
+        expected(load_config(each)).configurations[0].seconds_of for each in (sections, real)
+    )
+    assert 2 < plastic["crumple"] / elastic["crumple"] < 5
+    assert plastic["response"] > 1.2 * elastic["response"]
+    (tmp_path / "real.yaml").write_text(json.dumps(real))
+    check(tmp_path / "real.yaml")
+    said = capsys.readouterr().out
+    for words in (
+        "plastic from 12 MPa on",
+        "ring_tilt_deg 1",
+        "with 1 move of the ring",
+        "24 hours",
+    ):
+        assert words in said

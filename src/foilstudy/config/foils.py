@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from random import Random
 
 from foilstudy.config.sections import Material as MaterialSection
 from foilstudy.config.specimen import Specimen as SpecimenSection
+from foilstudy.config.specimen import clamps_of
 from foilstudy.config.tasks import CrumpleTask, RefineTask, ResponseTask
 from foilstudy.model.foil import Foil
 from foilstudy.model.materials import Material
 from foilstudy.model.patch import Patch
-from foilstudy.model.specimen import Clamps, Seam, Specimen, Unevenness
+from foilstudy.model.specimen import Seam, Specimen, Unevenness
 
 
 def material_of(section: MaterialSection) -> Material:
@@ -60,7 +60,7 @@ def specimen_of(section: SpecimenSection, seed: int) -> Specimen:
             section.thickness_correlation_mm * 1e-3,
             seed,
         ),
-        clamps=Clamps(section.ring_ellipticity_mm * 1e-3, math.radians(section.ring_tilt_deg)),
+        clamps=clamps_of(section),
         gravity=section.gravity_m_s2,
     )
 

@@ -39,7 +39,7 @@ from .sections import (
     Sweep,
     unit_field,
 )
-from .specimen import Specimen
+from .specimen import Specimen, clamps_of
 from .tasks import CrumpleTask, RefineTask, ResponseTask
 
 __all__ = ["Cell", "StudyConfig", "overlength_id", "thickness_id"]
@@ -285,6 +285,10 @@ class StudyConfig(Section):
                 "installation.waiting_hours lets stress go, and with it what carries the weight of "
                 "the foil; remove it, or specimen.gravity_m_s2."
             )
+        radius, gap = self.sheet.diameter_mm / 2e3, self.sheet.gap_height_mm / 1e3
+        if reason := clamps_of(self.specimen).beyond(radius, gap):
+            key = "ring_ellipticity_mm" if reason.startswith("bends") else "ring_tilt_deg"
+            yield f"specimen.{key} {reason}."
         if not (self.specimen.true or self.method.path in FROM_RINGS_OUT_OF_TRUE):
             yield (
                 f"method.path is {self.method.path}, which begins between true rings; remove "

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from foilstudy.model.specimen import DEVIATION_MAX, FACTOR_MAX
+from foilstudy.model.specimen import DEVIATION_MAX, FACTOR_MAX, Clamps
 
 from .sections import Section, unit_field
 
-__all__ = ["Specimen"]
+__all__ = ["Specimen", "clamps_of"]
 
 _Modulus = Annotated[float, Field(ge=1e-3, le=2e6)]
 _Factor = {"gt": 0, "le": FACTOR_MAX}
@@ -105,3 +106,8 @@ class Specimen(Section):
     def draws(self) -> bool:
         """Whether constants of the material are drawn."""
         return bool(self.youngs_modulus_range_mpa or self.yield_stress_range_mpa)
+
+
+def clamps_of(section: Specimen) -> Clamps:
+    """SI clamps."""
+    return Clamps(section.ring_ellipticity_mm * 1e-3, math.radians(section.ring_tilt_deg))

@@ -139,6 +139,8 @@ def uncrumpled(
             f"the path {recipe.method.path.kind} begins in equilibrium, between true rings; use "
             "relaxation, or leave out ellipticity and tilt."
         )
+    if reason := foil.specimen.clamps.beyond(foil.diameter / 2, foil.gap_height):
+        raise Refusal(f"the clamping {reason}.")
     if recipe.method.waiting:
         refuse_rest(foil, recipe.method.touches)
     if recipe.method.touches:

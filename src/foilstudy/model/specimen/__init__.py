@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from foilstudy.base.errors import Refusal
 from foilstudy.base.ranges import require_count, require_number
+from foilstudy.model.supports.moves import GAP_MIN
 
 __all__ = ["Clamps", "Seam", "Specimen", "Unevenness"]
 
@@ -17,6 +19,8 @@ CUT = 2.0
 """Standard deviations at which the thickness field is cut off."""
 TILT_MAX = 0.2
 """rad."""
+ELLIPTICITY_MAX = 0.2
+"""Over the radius: beyond it a ring bent without stretching is no ellipse."""
 
 
 @dataclass(frozen=True)
@@ -90,6 +94,22 @@ class Clamps:
     def true(self) -> bool:
         """Whether both rings are round and level."""
         return not (self.ellipticity or self.tilt)
+
+    def beyond(self, radius: float, gap: float) -> str:
+        """Why rings of a radius, m, cannot stand so, in words that follow a subject; or nothing."""
+        most = ELLIPTICITY_MAX * radius
+        if abs(self.ellipticity) > most:
+            return (
+                f"bends rings of a radius of {1e3 * radius:.4g} mm by "
+                f"{1e3 * abs(self.ellipticity):.4g} mm; keep it to {1e3 * most:.3g} mm"
+            )
+        lower = (radius + abs(self.ellipticity)) * math.sin(abs(self.tilt))
+        if gap - lower < GAP_MIN * gap:
+            return (
+                f"brings the rings to {1e3 * (gap - lower):.3g} mm from each other; keep them "
+                f"{1e3 * GAP_MIN * gap:.3g} mm apart"
+            )
+        return ""
 
 
 @dataclass(frozen=True)

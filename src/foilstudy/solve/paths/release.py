@@ -84,9 +84,10 @@ def let_go(problem: Problem, release: Release, points: np.ndarray | None) -> Let
     if points is None:
         return LetGo([], release.highest, free=True)
     done: list[RelaxationResult] = []
+    stored = problem.shell.energies(points).total
     height, force = _ring(problem, points)
     most = min(release.rule.relaxation_steps_max, _REST_STEPS)
-    rule = replace(release.rule, relaxation_steps_max=most)
+    rule = replace(release.rule, relaxation_steps_max=most, energy=stored)
     enough, longest = FORCE_LEFT * abs(force), _LONGEST * (release.highest - height)
     way = np.copysign(_FIRST * (release.highest - height), force)
     while abs(force) > enough and len(done) < _WAYS_MAX:

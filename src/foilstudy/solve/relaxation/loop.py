@@ -67,12 +67,16 @@ class StoppingRule:
         Steps between two checks and two history entries.
     relaxation_steps_min : int
         Steps after the ramp before which no residual is judged: beside a saddle it is small.
+    energy : float
+        Beside which a kinetic energy is judged where the strain energy is less, J: that of a foil
+        which comes free of stress goes to zero.
     """
 
     residual_tolerance: float
     relaxation_steps_max: int
     check_interval: int = 20
     relaxation_steps_min: int = 0
+    energy: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -217,7 +221,7 @@ def relax(
     momentum = np.zeros((3, free[1] - free[0], points.shape[2]))
     velocity = np.zeros_like(momentum)
     work_before = momentum_norm = 0.0
-    recorder = _Recorder(ramp, problem)
+    recorder = _Recorder(ramp, problem, rule.energy)
     status, step, failure, halt = "not_converged", 0, None, None
     last_step = ramp.steps + rule.relaxation_steps_max
     while True:
@@ -276,18 +280,20 @@ class _Entry:
     residual: float
     kinetic_energy: float
     strain_energy: float  # of the shell: that of loads may be negative
+    least_energy: float
 
     @property
     def kinetic_energy_ratio(self) -> float:
-        return self.kinetic_energy / self.strain_energy if self.strain_energy != 0 else 0.0
+        beside = max(self.strain_energy, self.least_energy)
+        return self.kinetic_energy / beside if beside != 0 else 0.0
 
     def settled(self, rule: StoppingRule) -> bool:
         return self.residual <= rule.residual_tolerance
 
 
 class _Recorder:
-    def __init__(self, ramp: Ramp, problem: Problem):
-        self._ramp = ramp
+    def __init__(self, ramp: Ramp, problem: Problem, least_energy: float):
+        self._ramp, self._least_energy = ramp, least_energy
         self._energy_names = problem.energy_names
         self._of_shell = len(problem.shell.energy_names)
         self._rows: list[tuple] = []
@@ -304,7 +310,7 @@ class _Recorder:
             (step, -self._ramp.shortening_at(step), reaction, *energies, kinetic, residual)
         )
         strain = float(energies[: self._of_shell].sum())
-        self._last = _Entry(float(residual), float(kinetic), strain)
+        self._last = _Entry(float(residual), float(kinetic), strain, self._least_energy)
         return self._last
 
     def _energy_words(self) -> str:

@@ -5,6 +5,8 @@ Time is a sum of power laws, each with its reason:
 - a crumple takes *steps* evaluations of force and mass solve, a little more than proportional to
   the elements as they leave the caches, and one factorisation when it settles;
 - contact costs the more, the more there is that touches, which grows with the overlength;
+- foil that may yield has its layers brought up to date in every step;
+- foil that is more than elastic is reduced twice, stress-free and as it stands;
 - the relaxation takes the more steps, the thinner the foil is against its radius; the ramp takes
   the steps it is told to take;
 - a static stiffness costs a factorisation, on every mesh of the ladder: twice on the mesh of the
@@ -80,15 +82,17 @@ class CostModel:
         2.2  # of the time of a step, for each unit of overlength, where parts may touch
     )
     sweep: float = 25  # static stiffnesses until a motion of the ring has changed it by 1 %
+    flow: float = 0.00034  # seconds of a step more for a thousand elements that may yield
     start: float = 3.47  # seconds until the first job starts, and of Snakemake in all
 
     def steps_after_ramp(self, slenderness: float) -> float:
         """Steps that a foil of R/t relaxes."""
         return self.relaxation_steps * (slenderness / 1000) ** self.slenderness_exponent
 
-    def crumple_seconds(self, elements: float, steps: float) -> float:
+    def crumple_seconds(self, elements: float, steps: float, yields: bool = False) -> float:
         """Time of `steps` steps, ramp included, and of settling."""
-        relaxing = steps * self.step * (elements / 1000) ** self.step_exponent
+        step = self.step + self.flow if yields else self.step
+        relaxing = steps * step * (elements / 1000) ** self.step_exponent
         return relaxing + self.settling * (elements / 1000) ** self.solve_exponent
 
     def solve_seconds(self, elements: float) -> float:
@@ -252,10 +256,10 @@ def _configuration(study: StudyConfig, cell: Cell, model: CostModel) -> Expected
     ramp, halvings = task.relaxation.ramp_steps, task.mesh.ramp_coarsenings
     steps = ramp + round(relaxing)
     # relaxed on every mesh from that of the ramp on
-    crumpling = model.crumple_seconds(elements, steps if not halvings else relaxing)
+    crumpling = model.crumple_seconds(elements, steps if not halvings else relaxing, study.yields)
     for level in range(1, halvings + 1):
         steps_there = relaxing + (ramp if level == halvings else 0)
-        crumpling += model.crumple_seconds(elements / 4**level, steps_there)
+        crumpling += model.crumple_seconds(elements / 4**level, steps_there, study.yields)
     if task.contact.kind != "none":
         crumpling *= 1 + model.contact * cell.overlength_percent / 100
     coordinates = model.reduced_coordinates(slenderness, study.dynamics.shown_max_hz)
@@ -264,10 +268,12 @@ def _configuration(study: StudyConfig, cell: Cell, model: CostModel) -> Expected
         "crumple": crumpling,
         "response": model.static_seconds(meshes)
         + model.sweep_seconds(elements, study.amplitude.directions)
-        + dynamic,
+        + dynamic * (2 if study.beyond_elastic else 1),
     }
     if relaxed:
-        seconds["refine"] = sum(model.crumple_seconds(mesh, relaxing) for mesh in relaxed)
+        seconds["refine"] = sum(
+            model.crumple_seconds(mesh, relaxing, study.yields) for mesh in relaxed
+        )
     if study.export.formats:
         seconds["export"] = model.solve_seconds(elements) + dynamic
     memory = [
