@@ -155,7 +155,14 @@ def test_a_side_that_ended_early_has_no_linear_amplitude():
     late = side_of(ways, 5 * np.array([1.0, 1.0, 1.02]))
     assert np.isnan(ForceCurve(5.0, (late, short)).linear_amplitude())
     early = side_of(ways, 5 * np.array([1.02, 1.03, 1.04]))
-    assert ForceCurve(5.0, (early, short)).linear_amplitude() == 1e-5
+    assert ForceCurve(5.0, (early, short)).linear_amplitude() == pytest.approx(5e-6, rel=1e-9)
+
+
+def test_a_change_within_the_first_step_begins_at_rest():
+    """Force 5 x - 500 x^2: 1 % at 0.1 mm, of which the first step sees the double."""
+    ways = np.array([2e-4, 4e-4])
+    side = side_of(ways, 5.0 * (1 - ways / 1e-2))
+    assert ForceCurve(5.0, (side,)).linear_amplitude() == pytest.approx(1e-4, rel=1e-9)
 
 
 def test_the_linear_amplitude_of_a_crumple_ends_the_sweep(small):

@@ -193,3 +193,26 @@ def test_a_page_whose_study_is_missing_is_left_and_the_others_are_written(
     assert said.out == "wrote: a.md\n"
     assert said.err.startswith("b.md is left as it is: results/other/cube.nc is missing")
     assert "No crumple (5 mm) exceeds" in (tmp_path / "a.md").read_text("utf-8")
+
+
+def test_the_figure_of_air_is_of_every_row_of_its_table():
+    from air_figure import table
+
+    rows = table((ROOT / "docs/air.md").read_text("utf-8"))
+    assert len(rows) == 7 and [row.thickness_um for row in rows][-1] == 50
+    for row in rows:
+        assert len(row.changes) == 3
+        rounding = 0.05 + 100 * 0.1 / row.vacuum
+        assert 100 * (row.air / row.vacuum - 1) == pytest.approx(row.changes[0], abs=rounding)
+        assert row.alone < row.isothermal < row.adiabatic
+
+
+def test_a_bias_explains_what_it_is_of_the_discrepancy():
+    """All of it where the rig reads the discrepancy; the table is that of its own biases."""
+    from bench_biases import DISCREPANCY, TABLE, explained
+
+    kept = pd.read_csv(TABLE)
+    whole = kept[(kept.direction == "radial") & (kept.thickness_um > 0)].head(1)
+    made = explained(whole.assign(bias_percent=100 * (DISCREPANCY - 1)))
+    assert made.explains_percent.item() == pytest.approx(100)
+    pd.testing.assert_frame_equal(explained(kept), kept)

@@ -51,8 +51,8 @@ class Side:
         """First way, without its sign, at which the secant differs from a stiffness by a share.
 
         A power law of the change between two steps, which is exact where a change begins; from a
-        step without a change of that sign on a straight line. Infinite where no step differs so
-        much, m.
+        step without a change of that sign, as from rest, on a straight line. Infinite where no
+        step differs so much, m.
 
         Parameters
         ----------
@@ -67,7 +67,7 @@ class Side:
             return np.inf
         k = int(beyond[0])
         if not k:
-            return float(ways[0])
+            return float(ways[0] * share / np.abs(change[0]))
         before, after = change[k - 1 : k + 1]
         wanted = np.copysign(share, after)
         if before * after > 0:
