@@ -59,7 +59,7 @@ def test_a_path_on_a_quarter_tells_how_far_it_came():
     assert result["status"] == "budget_spent" and result["factorisations"] == 60
     assert 0 < result["reached_within"] < result["reached"] < 0.05
     records = {"vibrations": {}, "quarters": {case: record("quarters", case, result)}}
-    text = bounds_tables.page(records)
+    text = STUDY.tables["bounds.md"](STUDY.findings(records))
     assert "| 18 mm, 10 um | arc_length, cylinder | " in text and "| budget spent | 60 |" in text
     (row,) = bounds_tables.quarters(records)
     assert row["path"] == "arc_length" and row["reached"] == result["reached"]
@@ -79,6 +79,7 @@ def test_reduced_models_fail_beyond_their_band_and_say_how_far_they_reach():
     assert min(result["loss"]) > 1.0
     assert result["stressed_eigenfrequencies"][0] < result["eigenfrequencies"][0]
     records = {"vibrations": {case: record("vibrations", case, result)}, "quarters": {}}
-    assert "| 500 um, 100 Hz | guyan | 12 |" in bounds_tables.page(records)
+    text = STUDY.tables["bounds.md"](STUDY.findings(records))
+    assert "| 500 um, 100 Hz | guyan | 12 |" in text
     assert len(bounds_tables.reductions(records)) == 4 * over.size
     assert len(bounds_tables.stressed_modes(records)) == vibrations.MODES

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from foilstudy.study.kernel.plan import Lazy, Part, Study, results
+from foilstudy.study.kernel.plan import Lazy, Part, Study
 from foilstudy.study.limits.plan import LIMITS
 
 
@@ -85,7 +85,6 @@ STUDY = Study(
         Part("vibrations", _vibrating(), Lazy(f"{_HERE}.vibrations:measure"), memory_mb=2000),
         Part("quarters", _quarters(), Lazy(f"{_HERE}.quarter:measure"), memory_mb=1000),
     ),
-    findings=results,
     tables={
         "reductions.csv": Lazy(f"{_HERE}.bounds_tables:reductions"),
         "stressed_modes.csv": Lazy(f"{_HERE}.bounds_tables:stressed_modes"),
