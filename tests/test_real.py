@@ -15,8 +15,9 @@ from foilstudy.study.real import trial
 from foilstudy.study.real.figures import chart
 from foilstudy.study.real.laws import CENTRE, fit, found
 from foilstudy.study.real.plan import LADDER, STUDY
-from foilstudy.study.real.settings import FILE, read_ladder
+from foilstudy.study.real.settings import FILE, Ladder
 from foilstudy.study.real.tables import laws, page, trials
+from foilstudy.study.settings import read_settings
 
 CASES = STUDY.parts[0].cases
 BETA, GAMMA = -0.6, 1.5
@@ -114,7 +115,7 @@ def test_a_wrong_file_is_refused_in_a_sentence(tmp_path, old, new, words):
     path = tmp_path / "real.yaml"
     path.write_text(FILE.read_text().replace(old, new, 1))
     with pytest.raises(ConfigError, match=words):
-        read_ladder(path)
+        read_settings(path, Ladder)
 
 
 def test_a_trial_is_a_study_of_one_foil(monkeypatch):

@@ -18,6 +18,7 @@ from foilstudy.pipeline.crumpled import Recipe
 from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.study.changes import changed, value_at
 from foilstudy.study.kernel.files import read_records
+from foilstudy.study.settings import read_settings
 from foilstudy.study.tradeoff import ensembles, figures, panel, tables
 from foilstudy.study.tradeoff.adaptive import present
 from foilstudy.study.tradeoff.frozen import Static
@@ -25,7 +26,7 @@ from foilstudy.study.tradeoff.knees import beaten
 from foilstudy.study.tradeoff.pace import in_turns
 from foilstudy.study.tradeoff.plan import LADDERS, RESOLVED, STUDY
 from foilstudy.study.tradeoff.points import bias, default_of, text_of
-from foilstudy.study.tradeoff.settings import Point, read_settings
+from foilstudy.study.tradeoff.settings import Point, Settings
 
 ROOT = Path(__file__).parents[1]
 RECIPE = Recipe(Mesh(5e-3), Imperfection(), Method())
@@ -65,7 +66,7 @@ def test_a_malformed_file_is_refused_with_the_place(tmp_path):
     path = tmp_path / "tradeoff.yaml"
     path.write_text("panel: [{family: size, change: way.size_mm}]", encoding="utf-8")
     with pytest.raises(ConfigError, match=r"tradeoff.yaml: panel.0.values: Field required"):
-        read_settings(path)
+        read_settings(path, Settings)
 
 
 def test_the_charted_defaults_are_those_of_a_study():

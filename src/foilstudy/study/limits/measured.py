@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from foilstudy.study.kernel.plan import Lazy, Part, Study
 from foilstudy.study.limits.plan import LIMITS
-from foilstudy.study.limits.settings import digest
+from foilstudy.study.settings import content_digest
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Measured:
 def _crumples() -> Iterator[Measured]:
     if LIMITS is None:
         return
-    ways = digest([way.model_dump() for way in LIMITS.measures.ways])
+    ways = content_digest([way.model_dump() for way in LIMITS.measures.ways])
     for one in LIMITS.measures.foils:
         for ramp in (None, *one.ramp_steps):
             for seed in range(one.seeds):

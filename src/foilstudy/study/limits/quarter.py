@@ -8,14 +8,14 @@ import numpy as np
 import scipy.sparse as sparse
 
 from foilstudy.model.foil import Foil
-from foilstudy.model.patch import RING_ROWS, Patch, fitted_control_points
+from foilstudy.model.patch import Patch, fitted_control_points
 from foilstudy.model.shell.shell import Shell
 from foilstudy.model.supports.edges import RIGID_LINES, Constraints, constraints, symmetric
 from foilstudy.model.supports.interpolation import as_field, as_vector
 from foilstudy.solve.choices import PATHS
 from foilstudy.solve.continuation import Correction, March, Trace, follow
+from foilstudy.solve.continuation.pushed_sheet import PushedSheet
 from foilstudy.solve.problem import Problem
-from foilstudy.solve.residual import least_scale
 from foilstudy.study.limits.bounds import Quarter
 from foilstudy.study.published import foil
 
@@ -25,10 +25,8 @@ TOLERANCE = 1e-8
 _TURN = 1e-9
 
 
-class PushedQuarter:
-    """Equilibria of a quarter as its top ring comes down, for `solve.continuation`.
-
-    The factor is the share of the shortening; see `PushedSheet`.
+class PushedQuarter(PushedSheet):
+    """The same of a quarter; what its planes of symmetry hold is no unknown.
 
     Parameters
     ----------
@@ -39,13 +37,8 @@ class PushedQuarter:
     """
 
     def __init__(self, sheet: Shell, held: Constraints, shortening: float):
-        self._problem, self._held = Problem(sheet), held
-        self._floor = least_scale(sheet, TOLERANCE)
-        rows = sheet.patch.rows
-        share = np.clip((np.arange(rows) - 0.5) / (rows - 2), 0.0, 1.0)
-        share[:RING_ROWS], share[-RING_ROWS:] = 0.0, 1.0
-        self.motion = np.zeros_like(sheet.reference)
-        self.motion[2] = -shortening * share[:, None]
+        super().__init__(Problem(sheet), shortening, TOLERANCE)
+        self._held = held
         self.size = held.free
 
     def points(self, q: np.ndarray, factor: float) -> np.ndarray:
@@ -61,22 +54,6 @@ class PushedQuarter:
         tangent = self._problem.tangent(self.points(q, factor))
         pushed = as_field(tangent @ as_vector(self.motion), self._held.patch)
         return self._held.reduced_matrix(tangent), self._held.reduced(pushed)
-
-    def scale(self, q: np.ndarray, factor: float) -> float:
-        """Norm of the force on the rings, N, or of what lets rounding pass."""
-        force = self._all_forces(q, factor)
-        rings = np.stack([force[:, :RING_ROWS], force[:, -RING_ROWS:]])
-        return max(float(np.linalg.norm(rings)), self._floor)
-
-    def force(self, q: np.ndarray, factor: float) -> float:
-        """Reaction of the quarter on the top ring, N."""
-        return -float(self._all_forces(q, factor)[2, -RING_ROWS:].sum())
-
-    def _all_forces(self, q: np.ndarray, factor: float) -> np.ndarray:
-        points = self.points(q, factor)
-        force = np.empty_like(points)
-        self._problem.force(points, force)
-        return force
 
 
 def quarter_of(sheet: Foil, size: float, amplitude: float, seed: int) -> PushedQuarter:

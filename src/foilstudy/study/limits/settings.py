@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import pydantic
 
 from foilstudy.base.errors import ConfigError
 from foilstudy.config.sections import Section
-from foilstudy.config.sources import read_file
 from foilstudy.study.changes import Value
+from foilstudy.study.settings import content_digest, read_settings
 
 FILE = Path(__file__).resolve().parents[4] / "config/limits.yaml"
 """Beside the sources: a package without them has no workflow, either."""
@@ -164,17 +161,12 @@ class Setting:
     def name(self) -> str:
         """Part of file names: in words, with a digest of the changes behind it."""
         words = _SLUG.sub("_", f"{self.method} {self.value}").strip("_")
-        return f"{words}-{digest(self.changes)}"
+        return f"{words}-{content_digest(self.changes)}"
 
     @property
     def words(self) -> str:
         """For people."""
         return f"{self.method}, {self.value}" if self.value else self.method
-
-
-def digest(content: Any) -> str:
-    """What tells one content from another in a file name."""
-    return hashlib.sha256(json.dumps(content).encode()).hexdigest()[:8]
 
 
 def settings_of(limits: Limits) -> Iterator[Setting]:
@@ -197,12 +189,7 @@ def read_limits(path: Path) -> Limits:
     ConfigError
         If it cannot be read or is of another form, or has no method without changes.
     """
-    try:
-        limits = Limits.model_validate(read_file(path))
-    except pydantic.ValidationError as error:
-        first = error.errors()[0]
-        place = ".".join(map(str, first["loc"]))
-        raise ConfigError(f"{path}: {place}: {first['msg']}; see the entries beside it.") from None
+    limits = read_settings(path, Limits)
     if not any(s.method == DEFAULT and not s.changes for s in settings_of(limits)):
         raise ConfigError(
             f"{path}: methods: none is called {DEFAULT!r}; add one without changes, to which the "

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import stdtrit
+import statsmodels.api as sm
 
-from foilstudy.base.confidence import CONFIDENCE
+from foilstudy.base.confidence import CONFIDENCE, NORMAL_95
 from foilstudy.base.reference import published
 from foilstudy.measure.stiffness.bounds import bound_of_any_shape
 from foilstudy.measure.stiffness.directional import DIRECTIONS
@@ -119,7 +119,7 @@ def _published() -> Iterator[Law]:
                 direction,
                 Known(level, np.nan, np.nan),
                 *(
-                    Known(e.value, e.value - 1.96 * e.std, e.value + 1.96 * e.std)
+                    Known(e.value, e.value - NORMAL_95 * e.std, e.value + NORMAL_95 * e.std)
                     for e in (law.beta, law.gamma)
                 ),
                 0,
@@ -171,12 +171,9 @@ def fit(values: dict[Trial, float]) -> tuple[Known, Known, Known] | None:
     thickness = np.array([t.thickness_um for t, _ in known], float)
     x, y = np.log(overlength / CENTRE[0]), np.log(thickness / CENTRE[1])
     design = np.stack([np.ones(x.size), x, y], axis=1)
-    freedom = x.size - design.shape[1]
-    if freedom < 1 or np.linalg.matrix_rank(design) < design.shape[1]:
+    if x.size <= design.shape[1] or np.linalg.matrix_rank(design) < design.shape[1]:
         return None
     target = np.log([value for _, value in known])
-    solution = np.linalg.lstsq(design, target, rcond=None)[0]
-    variance = ((target - design @ solution) ** 2).sum() / freedom
-    errors = np.sqrt(variance * np.diag(np.linalg.inv(design.T @ design)))
-    margin = errors * stdtrit(freedom, 0.5 + CONFIDENCE / 2)
-    return tuple(Known(*map(float, (v, v - m, v + m))) for v, m in zip(solution, margin))
+    found = sm.OLS(target, design).fit()
+    intervals = found.conf_int(alpha=1 - CONFIDENCE)
+    return tuple(Known(*map(float, (v, *ends))) for v, ends in zip(found.params, intervals))

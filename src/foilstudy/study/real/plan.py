@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from foilstudy.study.kernel.plan import Lazy, Part, Study
-from foilstudy.study.real.settings import FILE, Ladder, digest, read_ladder
+from foilstudy.study.real.settings import FILE, Ladder
+from foilstudy.study.settings import content_digest, read_settings
 
 
 @dataclass(frozen=True)
@@ -30,14 +31,14 @@ class Trial:
 
 
 # an installed package has no workflow, and no models beside it
-LADDER: Ladder | None = read_ladder(FILE) if FILE.is_file() else None
+LADDER: Ladder | None = read_settings(FILE, Ladder) if FILE.is_file() else None
 
 
 def _trials() -> Iterator[Trial]:
     if LADDER is None:
         return
     for step in LADDER.steps:
-        content = digest(LADDER.sections_of(step.name))
+        content = content_digest(LADDER.sections_of(step.name))
         for thickness in step.thickness_um or LADDER.thickness_um:
             for height in LADDER.reference_height_mm:
                 for seed in range(LADDER.seeds):

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import pydantic
 
-from foilstudy.base.errors import ConfigError
 from foilstudy.config.sections import Section
-from foilstudy.config.sources import read_file
+from foilstudy.config.sources import merged
 
 FILE = Path(__file__).resolve().parents[4] / "config/real.yaml"
 """Beside the sources: a package without them has no workflow, either."""
@@ -70,35 +66,4 @@ class Ladder(Section):
         """Sections of a step, those that it takes over among them."""
         step = next(step for step in self.steps if step.name == name)
         inherited = self.sections if step.after is None else self.sections_of(step.after)
-        return merged(inherited, step.sections)
-
-
-def merged(below: Mapping[str, Mapping], above: Mapping[str, Mapping]) -> Sections:
-    """Sections of two sources, key by key; those `above` win."""
-    return {
-        name: {**below.get(name, {}), **above.get(name, {})}
-        for name in dict.fromkeys((*below, *above))
-    }
-
-
-def digest(content: Any) -> str:
-    """What tells one content from another in a file name."""
-    return hashlib.sha256(json.dumps(content).encode()).hexdigest()[:8]
-
-
-def read_ladder(path: Path) -> Ladder:
-    """The models in a file.
-
-    Raises
-    ------
-    ConfigError
-        If it cannot be read or is of another form.
-    """
-    try:
-        return Ladder.model_validate(read_file(path))
-    except pydantic.ValidationError as error:
-        first = error.errors()[0]
-        place = ".".join(map(str, first["loc"]))
-        raise ConfigError(
-            f"{path}: {place or 'steps'}: {first['msg']}; see the entries beside it."
-        ) from None
+        return merged([inherited, step.sections])

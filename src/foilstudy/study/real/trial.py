@@ -9,8 +9,9 @@ import numpy as np
 
 from foilstudy.base.record import read_record
 from foilstudy.config import load_config
+from foilstudy.config.sources import merged
 from foilstudy.study.real.plan import LADDER, Trial
-from foilstudy.study.real.settings import Sections, merged
+from foilstudy.study.real.settings import Sections
 from foilstudy.study.sweep.crumple import crumple_job
 from foilstudy.study.sweep.respond import respond_job
 
@@ -50,4 +51,4 @@ def _configured(trial: Trial, sections: Sections) -> Sections:
         "reference_height_mm": [trial.height_mm],
         "realisations": trial.seed + 1,
     }
-    return merged(sections, {"study": {"name": "trial"}, "sweep": sweep})
+    return merged([sections, {"study": {"name": "trial"}, "sweep": sweep}])

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 from foilstudy.study.kernel.plan import Lazy, Part, Study
 from foilstudy.study.published import CrumpleCase
-from foilstudy.study.tradeoff.settings import FILE, Family, Point, Settings, read_settings
+from foilstudy.study.settings import read_settings
+from foilstudy.study.tradeoff.settings import FILE, Family, Point, Settings
 
 
 @dataclass(frozen=True)
@@ -66,7 +67,7 @@ def _ladders(settings: Settings) -> Iterator[Ladder]:
 
 
 # an installed package has no workflow, and no settings beside it
-_SETTINGS = read_settings(FILE) if FILE.is_file() else None
+_SETTINGS = read_settings(FILE, Settings) if FILE.is_file() else None
 LADDERS = tuple(_ladders(_SETTINGS)) if _SETTINGS else ()
 RESOLVED = tuple(
     CrumpleCase("corner", one.thickness_um, one.height_mm, one.size_mm, 0)

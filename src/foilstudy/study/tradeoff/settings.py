@@ -8,9 +8,7 @@ from typing import TypeVar
 
 import pydantic
 
-from foilstudy.base.errors import ConfigError
 from foilstudy.config.sections import Section
-from foilstudy.config.sources import read_file
 from foilstudy.study.changes import Value, changed
 
 FILE = Path(__file__).resolve().parents[4] / "config/tradeoff.yaml"
@@ -136,19 +134,3 @@ class Point:
     def points(self, family: Family) -> tuple[Point, ...]:
         """Of all values of a family."""
         return tuple(self.at(family, value) for value in family.values)
-
-
-def read_settings(path: Path) -> Settings:
-    """The settings in a file.
-
-    Raises
-    ------
-    ConfigError
-        If it cannot be read or is of another form.
-    """
-    try:
-        return Settings.model_validate(read_file(path))
-    except pydantic.ValidationError as error:
-        first = error.errors()[0]
-        place = ".".join(map(str, first["loc"]))
-        raise ConfigError(f"{path}: {place}: {first['msg']}; see the entries beside it.") from None
