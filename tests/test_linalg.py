@@ -184,6 +184,21 @@ def test_a_singular_matrix_is_refused(solver, make):
         factorise(make())
 
 
+@pytest.mark.parametrize("shift", [0.0, 0.4])
+def test_unknowns_may_have_units_far_apart(solver, shift):
+    """As forces and the moments of rings of a millimetre: regular, whatever Pardiso calls small."""
+    matrix = plate(4, 4) - shift * sparse.eye_array(16)
+    units = np.where(np.arange(16) < 13, 1.0, 1e-6)
+    apart = (sparse.diags_array(units) @ matrix @ sparse.diags_array(units)).tocsr()
+    factor, loads = factorise(apart), np.linspace(1, 2, 16)
+    negative = (np.linalg.eigvalsh(matrix.toarray()) < 0).sum()
+    assert factor.negative_eigenvalues == negative
+    expected = np.linalg.solve(matrix.toarray(), loads)
+    for rhs in (units * loads, np.stack([units * loads] * 2, axis=1)):
+        solution = units * factor.solve(rhs).T
+        np.testing.assert_allclose(solution, np.broadcast_to(expected, solution.shape), rtol=1e-9)
+
+
 @pytest.mark.parametrize("number", [np.nan, np.inf])
 def test_numbers_that_are_not_finite_are_refused_before_any_solver_sees_them(
     solver, number, monkeypatch

@@ -7,6 +7,10 @@ class SolveError(RuntimeError):
     """A factorisation failed or a solution does not satisfy its equations."""
 
 
+class PerturbedPivot(SolveError):
+    """A pivot vanished beside the largest entry of the matrix."""
+
+
 def refuse_not_finite(values: np.ndarray, what: str) -> None:
     """Refuse numbers that are not finite before they reach native code, which may die of them.
 

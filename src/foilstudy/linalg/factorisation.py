@@ -14,7 +14,7 @@ import scipy.sparse as sparse
 
 from foilstudy.linalg import pardiso
 from foilstudy.linalg.blocks import SymmetricBlocks
-from foilstudy.linalg.errors import SolveError, refuse_not_finite
+from foilstudy.linalg.errors import PerturbedPivot, SolveError, refuse_not_finite
 from foilstudy.linalg.pardiso import PardisoFactorisation
 from foilstudy.linalg.superlu import SuperLUFactorisation
 from foilstudy.linalg.updated import Updated
@@ -69,7 +69,7 @@ def factorise(
         plain = matrix.sparse
         factor = UpdatedFactorisation(factorise(plain, residual_tolerance), matrix)
     elif backend() == "pardiso":
-        factor = PardisoFactorisation(matrix)
+        factor = _by_pardiso(matrix)
     else:
         factor = SuperLUFactorisation(matrix)
     sizes = _sizes(plain)
@@ -83,6 +83,41 @@ def factorise(
             f"residual {residual:.1e}, amplification {amplification:.1e}"
         )
     return factor
+
+
+def _by_pardiso(matrix: sparse.csr_matrix | SymmetricBlocks) -> Factorisation:
+    """Factors of a matrix, or of it scaled to a diagonal of size one.
+
+    Pardiso calls a pivot zero beside the largest entry of the matrix, whatever the units are: the
+    rotations (N m/rad) of rings of a millimetre are so beside its forces (N/m).
+    """
+    try:
+        return PardisoFactorisation(matrix)
+    except PerturbedPivot:
+        if isinstance(matrix, SymmetricBlocks):
+            raise
+        return ScaledFactorisation(matrix)
+
+
+class ScaledFactorisation:
+    """By Pardiso, of the matrix scaled to a diagonal of size one, by powers of two: exactly.
+
+    Raises
+    ------
+    SolveError
+        If that is singular, too.
+    """
+
+    def __init__(self, matrix: sparse.csr_matrix):
+        self._scale = 2.0 ** -np.round(np.log2(_sizes(matrix)))
+        outer = sparse.diags_array(self._scale)
+        self._factor = PardisoFactorisation((outer @ matrix @ outer).tocsr())
+        self.negative_eigenvalues = self._factor.negative_eigenvalues
+
+    def solve(self, rhs: np.ndarray) -> np.ndarray:
+        """Solve for one or several right-hand sides."""
+        scale = self._scale if rhs.ndim == 1 else self._scale[:, None]
+        return scale * self._factor.solve(scale * rhs)
 
 
 def _sizes(matrix: sparse.csr_matrix | SymmetricBlocks) -> np.ndarray:

@@ -15,7 +15,7 @@ import numpy as np
 import scipy.sparse as sparse
 
 from foilstudy.linalg.blocks import SymmetricBlocks
-from foilstudy.linalg.errors import SolveError, refuse_complex, refuse_not_finite
+from foilstudy.linalg.errors import PerturbedPivot, SolveError, refuse_complex, refuse_not_finite
 
 _SYMMETRIC_DEFINITE, _SYMMETRIC_INDEFINITE, _COMPLEX_SYMMETRIC = 2, -2, 6
 _ANALYSE_AND_FACTOR, _FACTOR, _SOLVE, _RELEASE_FACTORS, _RELEASE = 12, 22, 33, 0, -1
@@ -191,7 +191,7 @@ class PardisoFactorisation:
         weakref.finalize(self, _give_back, self._job)
         self._run(phase, np.zeros(self._job.size, dtype=self._job.values.dtype))
         if self._job.settings[13] > 0:
-            raise SolveError("the matrix is singular: Pardiso had to perturb a pivot")
+            raise PerturbedPivot("the matrix is singular: Pardiso had to perturb a pivot")
         self.negative_eigenvalues = self._negative_eigenvalues()
 
     def _negative_eigenvalues(self) -> int | None:
