@@ -174,7 +174,6 @@ def moving(*moves):
         (moving({"release": 1}), r"moves\[0\].release is 1, not a truth value"),
         (moving({"tilt": 3}), r"moves\[0\].tilt is not a known key; did you mean .*tilt_mrad"),
         (moving({"tilt_mrad": 900}), r"moves\[0\].tilt_mrad is 900, out of range.* 500 mrad"),
-        ({"installation": {"stops_percent": [125.0]}}, "is now a list of moves; write"),
     ],
 )
 def test_moves_that_make_no_sense_are_refused(sections, sentence):

@@ -409,16 +409,6 @@ class Installation(Section):
         le=1e7,
     )
 
-    @model_validator(mode="before")
-    @classmethod
-    def _stops_are_moves(cls, data: Any) -> Any:
-        if isinstance(data, Mapping) and "stops_percent" in data:
-            raise ValueError(
-                "installation.stops_percent is now a list of moves; write installation.moves: "
-                "[{shorten_percent: 125}] for a stop at 125 %."
-            )
-        return data
-
 
 class Relaxation(Section):
     """Dynamic relaxation: ramp of the moving ring, then relaxation to equilibrium."""
