@@ -18,10 +18,13 @@ from foilstudy.model.foil import Imperfection
 from foilstudy.pipeline.crumple import crumple, uncrumpled
 from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.pipeline.true_state import true_state
-from foilstudy.present.figures import energy, history
+from foilstudy.present.figures import energy, history, stiffness
+from foilstudy.present.report.laws import read_laws
 from foilstudy.present.report.mesh import assess_mesh
 from foilstudy.present.report.true_state import true_findings, true_grids
 from foilstudy.present.statistics.cells import energy_left
+from foilstudy.present.statistics.powerlaw import AS_IT_STANDS, PRESTRESSED, powerlaw_table
+from foilstudy.present.statistics.summary import stiffness_summary
 from foilstudy.solve.paths.relaxation import RelaxationPath
 from foilstudy.study.sweep.crumple import crumple_job
 from foilstudy.study.sweep.cube import gather
@@ -100,6 +103,16 @@ def test_records_cube_and_page_have_it_where_foil_yields(tmp_path):
     axial, radial = true_grids(cube)
     assert (axial.direction, radial.direction) == ("axial", "radial")
     assert [axial.rows[0].cells[0].mean, radial.rows[0].cells[0].mean] == list(true)
+    # one law for it, and none for the pre-stressed state, which is the same
+    table = powerlaw_table(cube).set_index(["direction", "source"])
+    assert table.loc[("radial", AS_IT_STANDS), "n"] == 1
+    laws = read_laws(powerlaw_table(cube), stiffness_summary(cube))
+    listed = [law.source for law in laws[1].listed]
+    assert AS_IT_STANDS in listed and PRESTRESSED not in listed
+    # a mesh of 20 mm resolves no fold
+    assert not axial.rows[0].cells[0].resolved
+    ax = stiffness.draw(cube, "axial").axes[0]
+    assert "as it stands: mean, min to max" in ax.get_legend_handles_labels()[1]
     # the energy that is left is the sum that the foil would give back
     crumple_values, _ = read_record(folder / "crumple.nc")
     parts = ("membrane", "bending", "stabilisation", "plastic_relief")
@@ -115,6 +128,8 @@ def test_records_cube_and_page_have_it_where_foil_yields(tmp_path):
 def test_the_page_says_nothing_of_it_for_elastic_foil():
     cube = make_cube()
     assert true_grids(cube) == () and true_findings(cube) == []
+    listed = read_laws(powerlaw_table(cube), stiffness_summary(cube))[0].listed
+    assert AS_IT_STANDS not in {law.source for law in listed}
     internal = cube["membrane_energy"] + cube["bending_energy"] + cube["stabilisation_energy"]
     assert energy_left(cube).identical(internal)
     assert assess_mesh(cube).stabilisation_share

@@ -59,6 +59,7 @@ def check(file: Path, /, *, cores: Cores = 2) -> None:
 def _resolved(study: StudyConfig) -> Iterator[tuple[str, str]]:
     """What was written, and what defaults, `accuracy` and `auto` became."""
     from foilstudy.config.chosen import accuracy_words
+    from foilstudy.config.departures import departures
 
     sheet, material, imperfection = study.sheet, study.material, study.imperfection
     yield (
@@ -83,12 +84,7 @@ def _resolved(study: StudyConfig) -> Iterator[tuple[str, str]]:
         f"most {relaxation.relaxation_steps_max} after it, to a residual of "
         f"{relaxation.residual_tolerance:g}",
     )
-    yield from _not_ideal(study)
-    if study.contact.kind != "none":
-        reach = study.contact.reach_mm
-        planes = ", and the planes of the rings" if study.contact.ring_planes else ""
-        words = "up to 1 mm" if reach is None else f"{reach:g} mm"
-        yield "contact", f"{study.contact.kind} of {words} between parts of the foil{planes}"
+    yield from departures(study.model_dump(mode="json"))
     stiffness = study.stiffness
     demand = (
         "" if stiffness.error_percent is None else f"to {stiffness.error_percent:g} %, at most "
@@ -106,22 +102,6 @@ def _resolved(study: StudyConfig) -> Iterator[tuple[str, str]]:
     )
     if study.export.formats:
         yield "export", ", ".join(study.export.formats)
-
-
-def _not_ideal(study: StudyConfig) -> Iterator[tuple[str, str]]:
-    """In what foil and fitting are not those of the published study."""
-    material, fitted = study.material, study.installation
-    if study.yields:
-        modulus = material.hardening_mpa
-        hardens = "" if modulus is None else f", hardening by {modulus:g} MPa"
-        yield "yielding", f"{material.law} from {material.yield_stress_mpa:g} MPa on{hardens}"
-    departures = study.specimen.model_dump(mode="json", exclude_defaults=True)
-    if departures:
-        yield "specimen", ", ".join(f"{key} {value}" for key, value in departures.items())
-    if fitted.moves:
-        yield "fitted", f"with {plural(len(fitted.moves), 'move')} of the ring before it stays"
-    if fitted.waiting_hours:
-        yield "waiting", f"{fitted.waiting_hours:g} hours before it is measured"
 
 
 def _ramp(study: StudyConfig) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 from foilstudy.plot import style
 from foilstudy.present.comparison import comparable
 from foilstudy.present.statistics.cells import measured
-from foilstudy.present.statistics.powerlaw import SIMULATED
+from foilstudy.present.statistics.powerlaw import PRESTRESSED, SIMULATED
 
 _DARK, _LIGHT = style.ordered_colours(2)
 _BOTTOM = 0.045
@@ -35,7 +35,7 @@ class _Series:
 
 _SERIES = (
     _Series("simulation mesh limit", "stress-free, mesh limit", "s", _DARK, "white", 0.92),
-    _Series("simulation pre-stressed", "pre-stressed, crumpled mesh", "o", _DARK, _DARK, 1.0),
+    _Series(PRESTRESSED, "pre-stressed, crumpled mesh", "o", _DARK, _DARK, 1.0),
     _Series(
         "simulation pre-stressed refined", "pre-stressed, relaxed again", "^", "k", _LIGHT, 1.09
     ),
@@ -53,7 +53,7 @@ def draw(cube):
     figure, axes = style.panel_grid(
         len(directions), thicknesses.size, (2.2, 3.0), (2.6, 0.7), sharey="row"
     )
-    if not any(s.source.startswith("simulation pre-stressed") for s in series):
+    if not any(s.source.startswith(PRESTRESSED) for s in series):
         style.message_panel(axes, "no usable realisation with a pre-stressed stiffness")
         return figure
     for row, direction in zip(axes, directions):

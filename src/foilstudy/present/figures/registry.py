@@ -48,7 +48,8 @@ _STIFFNESS_CAPTION = (
     "one panel per thickness. Squares with bar: mean in the mesh limit (same shapes at element "
     "size zero, on the finest mesh where it is not extrapolated) and the stated mesh error, open "
     "where it is not trusted; dots with band: mean, smallest and largest of the realisations on "
-    "the mesh that was crumpled; line: the law of the trusted configurations (± 95 %), dotted a "
+    "the mesh that was crumpled; diamonds with bar, where foil yields, touches, waits or "
+    "weighs: the same of the foil as it stands; line: the law of the trusted configurations (± 95 %), dotted a "
     "fit to all where none is trusted; black and grey, for the published case alone: the published "
     "fits; light grey: the uncrumpled cylinder, an upper bound."
 )

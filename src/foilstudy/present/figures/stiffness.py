@@ -6,7 +6,10 @@ import numpy as np
 
 from foilstudy.plot import style
 from foilstudy.present.comparison import comparable
+from foilstudy.present.statistics.cells import measured
 from foilstudy.present.statistics.powerlaw import (
+    AS_IT_STANDS,
+    SIMULATED,
     TRUSTED,
     answering_source,
     shown_source,
@@ -14,6 +17,7 @@ from foilstudy.present.statistics.powerlaw import (
 )
 from foilstudy.present.statistics.summary import stiffness_summary
 
+_STANDS = SIMULATED[AS_IT_STANDS]
 _MINE, _LIMIT = style.ordered_colours(5)[1:4:2]
 _LEGEND = (
     "mesh limit, bar: stated error",
@@ -21,6 +25,7 @@ _LEGEND = (
     "law of the mesh limit",
     "fit to what is not trusted",
     "crumpled mesh: mean, min to max",
+    "as it stands: mean, min to max",
     "uncrumpled cylinder (bound)",
     "published simulation (fit)",
     "published experiment (fit)",
@@ -40,6 +45,7 @@ def draw(cube, direction: str):
     table = table[table["direction"] == direction]
     answer = answering_source(cube, direction)
     fitted = simulated_law(cube, direction, answer or shown_source(cube, direction))
+    stands = measured(cube, _STANDS, direction=direction) if _STANDS in cube else None
     reference = comparable(cube)
     thicknesses = cube["thickness"].to_numpy()
     overlengths = cube["overlength"].to_numpy()
@@ -51,6 +57,8 @@ def draw(cube, direction: str):
         style.overlength_axis(ax, overlengths)
         rows = table[table["thickness_um"] == thickness]
         _panel(ax, rows)
+        if stands is not None:
+            _as_it_stands(ax, stands.sel(thickness=thickness))
         if answer != TRUSTED or rows["trusted"].any():
             _law(ax, fitted.law, answer is not None, fine, thickness)
         for kind, law in reference.power_laws[direction].items() if reference else ():
@@ -127,6 +135,24 @@ def _panel(ax, rows) -> None:
                 capsize=3.5,
                 label=label,
             )
+
+
+def _as_it_stands(ax, values) -> None:
+    """A little to the right of the others, so that their bars can be told apart."""
+    mean = values.mean("seed")
+    below, above = mean - values.min("seed"), values.max("seed") - mean
+    ax.errorbar(
+        1.03 * values["overlength"],
+        mean,
+        yerr=[below, above],
+        fmt="D",
+        color="k",
+        mfc="white",
+        ms=4,
+        elinewidth=1,
+        capsize=2,
+        label="as it stands: mean, min to max",
+    )
 
 
 def _law(ax, law, trusted: bool, overlength, thickness: float) -> None:

@@ -4,13 +4,13 @@ from collections.abc import Mapping, Sequence
 
 from foilstudy.base.numerals import fixed
 from foilstudy.present.report.laws import DirectionLaws, Law
-from foilstudy.present.statistics.powerlaw import LIMIT, PLAIN
+from foilstudy.present.statistics.powerlaw import LIMIT, PLAIN, PRESTRESSED
 
 _STEPS = (
     (PLAIN, LIMIT, "refining the same shapes to the mesh limit"),
-    (PLAIN, "simulation pre-stressed", "leaving the stress in"),
+    (PLAIN, PRESTRESSED, "leaving the stress in"),
     (
-        "simulation pre-stressed",
+        PRESTRESSED,
         "simulation pre-stressed refined",
         "relaxing again on the refined mesh with the stress left in",
     ),

@@ -9,14 +9,15 @@ import pandas as pd
 
 from foilstudy.base.numerals import fixed, number, signed
 from foilstudy.base.reference import DimensionlessLaw, PowerLaw
-from foilstudy.present.statistics.powerlaw import LIMIT, PLAIN, TRUSTED
+from foilstudy.present.statistics.powerlaw import AS_IT_STANDS, LIMIT, PLAIN, PRESTRESSED, TRUSTED
 from foilstudy.present.statistics.regression import SIGNIFICANT
 
 SOURCES = {
     TRUSTED: "This study, mesh limit, trusted",
     LIMIT: "This study, mesh limit",
     PLAIN: "This study, crumpled mesh",
-    "simulation pre-stressed": "This study, pre-stressed",
+    AS_IT_STANDS: "This study, as it stands",
+    PRESTRESSED: "This study, pre-stressed",
     "simulation pre-stressed refined": "This study, pre-stressed, relaxed again",
     "published simulation": "Published simulation",
     "published experiment": "Published experiment",
@@ -129,6 +130,13 @@ class DirectionLaws:
     def best(self) -> Law:
         """The law that answers, or the best one to show, untrusted as it is."""
         return self.laws[0]
+
+    @property
+    def listed(self) -> tuple[Law, ...]:
+        """Those of the table: a foil as it stands is the pre-stressed one, with all it remembers."""
+        if self.law(AS_IT_STANDS) is None:
+            return self.laws
+        return tuple(law for law in self.laws if law.source != PRESTRESSED)
 
     @property
     def plain(self) -> Law:

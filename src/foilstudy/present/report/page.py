@@ -15,6 +15,7 @@ import xarray as xr
 from foilstudy.base import numerals
 from foilstudy.base.files import written_whole
 from foilstudy.config.chosen import accuracy_words
+from foilstudy.config.departures import departures
 from foilstudy.plot.save import inches_wide
 from foilstudy.present.comparison import comparable, comparison_sentence, studied_case
 from foilstudy.present.configuration import configuration, isolation_options, study_of
@@ -233,6 +234,7 @@ def _scope(cube: xr.Dataset, config: Mapping) -> list[str]:
             f"{material['name']}, E = {numerals.nominal(material['youngs_modulus_mpa'])} MPa, "
             f"ν = {numerals.nominal(material['poisson_ratio'])}"
         )
+    phrases += (f"{name}: {words}" for name, words in departures(config))
     if "mesh" in config:
         phrases.append(f"{mesh.element_kind(config)} elements {_element_size(config['mesh'])}")
     if "accuracy" in config:

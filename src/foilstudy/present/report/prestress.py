@@ -13,9 +13,9 @@ from foilstudy.present.comparison import comparable
 from foilstudy.present.report.laws import DirectionLaws
 from foilstudy.present.report.spread import Spread, by_direction, by_thickness
 from foilstudy.present.statistics.cells import energy_left, measured, realised
-from foilstudy.present.statistics.powerlaw import SIMULATED
+from foilstudy.present.statistics.powerlaw import PRESTRESSED, SIMULATED
 
-_FREE, _STRESSED = SIMULATED["simulation"], SIMULATED["simulation pre-stressed"]
+_FREE, _STRESSED = SIMULATED["simulation"], SIMULATED[PRESTRESSED]
 _AGAIN = SIMULATED["simulation pre-stressed refined"]
 
 
@@ -216,7 +216,7 @@ def _ratios(cube: xr.Dataset) -> str:
 def _laws(directions: Sequence[DirectionLaws]) -> str:
     parts = []
     for item in directions:
-        law = item.law("simulation pre-stressed")
+        law = item.law(PRESTRESSED)
         if item.answer and law and (law.beta.known or law.gamma.known):
             exponents = [
                 f"{symbol} = {fixed(exponent.value)}{exponent.margin}"
@@ -248,7 +248,7 @@ def _scatter(
             f"The {item.direction} coefficient of variation, median of the configurations, is "
             f"{percent(stressed)} pre-stressed and {percent(free)} stress-free"
         )
-        law = item.law("simulation pre-stressed")
+        law = item.law(PRESTRESSED)
         implied = _implied_scatter(cube, item.direction)
         if law and math.isfinite(law.residual_std):
             factors = [fixed(math.exp(s)) for s in (law.residual_std, item.plain.residual_std)]

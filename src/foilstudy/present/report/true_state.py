@@ -9,8 +9,10 @@ import xarray as xr
 
 from foilstudy.base.numerals import plural
 from foilstudy.present.statistics.cells import measured
+from foilstudy.present.statistics.powerlaw import AS_IT_STANDS, SIMULATED
+from foilstudy.present.statistics.trust import assess_trust
 
-_TRUE = "true_stiffness"
+_TRUE = SIMULATED[AS_IT_STANDS]
 
 
 @dataclass(frozen=True)
@@ -25,11 +27,14 @@ class TrueCell:
         Coefficient of variation over the realisations; NaN of a single one.
     n : int
         Realisations that have one.
+    resolved : bool
+        Whether the mesh resolves the folds; no mesh error of this stiffness is known.
     """
 
     mean: float
     scatter: float
     n: int
+    resolved: bool
 
 
 @dataclass(frozen=True)
@@ -53,7 +58,8 @@ def true_grids(cube: xr.Dataset) -> tuple[TrueGrid, ...]:
     """A grid for each direction; none where the foils are elastic shells and nothing more."""
     if _TRUE not in cube:
         return ()
-    values = measured(cube, _TRUE)
+    values, trust = measured(cube, _TRUE), assess_trust(cube)
+    resolved = ~(trust.unresolved | trust.folded)
     overlengths = tuple(map(float, cube["overlength"].values))
     return tuple(
         TrueGrid(
@@ -63,25 +69,29 @@ def true_grids(cube: xr.Dataset) -> tuple[TrueGrid, ...]:
                 TrueRow(
                     float(thickness),
                     tuple(
-                        _cell(foils.sel(overlength=o, direction=direction).values)
-                        for o in cube["overlength"].values
+                        _cell(values.sel(place).values, bool(resolved.sel(place)))
+                        for overlength in cube["overlength"].values
+                        for place in (_place(thickness, overlength, direction),)
                     ),
                 )
                 for thickness in cube["thickness"].values
-                for foils in (values.sel(thickness=thickness),)
             ),
         )
         for direction in cube["direction"].values
     )
 
 
-def _cell(values: np.ndarray) -> TrueCell:
+def _place(thickness: float, overlength: float, direction: str) -> dict:
+    return {"thickness": thickness, "overlength": overlength, "direction": direction}
+
+
+def _cell(values: np.ndarray, resolved: bool) -> TrueCell:
     known = values[np.isfinite(values)]
     if not known.size:
-        return TrueCell(np.nan, np.nan, 0)
+        return TrueCell(np.nan, np.nan, 0, resolved)
     mean = float(known.mean())
     scatter = float(known.std(ddof=1) / mean) if known.size > 1 else np.nan
-    return TrueCell(mean, scatter, known.size)
+    return TrueCell(mean, scatter, known.size, resolved)
 
 
 def true_findings(cube: xr.Dataset) -> list[str]:

@@ -15,10 +15,13 @@ from foilstudy.present.statistics.trust import assess_trust, where_trusted
 
 LIMIT = "simulation mesh limit"
 PLAIN = "simulation"
+AS_IT_STANDS = "simulation as it stands"
+PRESTRESSED = "simulation pre-stressed"
 SIMULATED = {
     LIMIT: "static_stiffness_converged",
     PLAIN: "static_stiffness",
-    "simulation pre-stressed": "prestressed_stiffness",
+    AS_IT_STANDS: "true_stiffness",
+    PRESTRESSED: "prestressed_stiffness",
     "simulation pre-stressed refined": "prestressed_stiffness_converged",
 }
 """Source of a simulated power law and the cube variable it is fitted to; the best one first."""
@@ -77,6 +80,7 @@ def simulated_law(cube, direction: str, source: str = PLAIN) -> FittedLaw:
     source
         A key of `SIMULATED`: ``simulation`` is the stress-free stiffness on the crumpled mesh,
         ``simulation mesh limit`` that of the same shapes at element size zero, ``simulation
+        as it stands`` that of a foil that yields, touches or has been waited for, ``simulation
         pre-stressed`` has the stress left in, and ``simulation pre-stressed refined`` was relaxed
         again on refined meshes. Or `TRUSTED`.
     """
