@@ -17,8 +17,8 @@ from foilstudy.present.comparison import comparable, comparison_sentence
 from foilstudy.present.statistics.cells import samples
 from foilstudy.present.statistics.eigenfrequency import eigenfrequency_table
 from foilstudy.present.statistics.powerlaw import (
-    LIMIT,
     AS_IT_STANDS,
+    LIMIT,
     SIMULATED,
     TRUSTED,
     answering_source,

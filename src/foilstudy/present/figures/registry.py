@@ -49,9 +49,9 @@ _STIFFNESS_CAPTION = (
     "size zero, on the finest mesh where it is not extrapolated) and the stated mesh error, open "
     "where it is not trusted; dots with band: mean, smallest and largest of the realisations on "
     "the mesh that was crumpled; diamonds with bar, where foil yields, touches, waits or "
-    "weighs: the same of the foil as it stands; line: the law of the trusted configurations (± 95 %), dotted a "
-    "fit to all where none is trusted; black and grey, for the published case alone: the published "
-    "fits; light grey: the uncrumpled cylinder, an upper bound."
+    "weighs: the same of the foil as it stands; line: the law of the trusted configurations "
+    "(± 95 %), dotted a fit to all where none is trusted; black and grey, for the published case "
+    "alone: the published fits; light grey: the uncrumpled cylinder, an upper bound."
 )
 
 FIGURES: dict[str, FigureSpec] = {

@@ -133,7 +133,7 @@ class DirectionLaws:
 
     @property
     def listed(self) -> tuple[Law, ...]:
-        """Those of the table: a foil as it stands is the pre-stressed one, with all it remembers."""
+        """Those of the table; the pre-stressed one is left out where it is that as it stands."""
         if self.law(AS_IT_STANDS) is None:
             return self.laws
         return tuple(law for law in self.laws if law.source != PRESTRESSED)
