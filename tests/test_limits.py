@@ -19,6 +19,7 @@ from foilstudy.study.limits.measures import measure as measure_every_way
 from foilstudy.study.limits.measures import page as page_of_measures
 from foilstudy.study.limits.measures import rows as rows_of_measures
 from foilstudy.study.limits.plan import LIMITS, SETTINGS, STUDY, Trial
+from foilstudy.study.limits.published import OBSERVATIONS
 from foilstudy.study.limits.quick import STUDY as QUICK
 from foilstudy.study.limits.settings import read_limits
 from foilstudy.study.limits.tables import page, rows
@@ -186,9 +187,19 @@ def test_figures_show_each_verdict_and_an_example(fields):
     texts = {text.get_text() for ax in figure.axes for text in ax.texts}
     assert {"+0", "-50", "XF"} <= texts
     assert len(figure.axes) == 3
+    # of these rows one is published, of foil of this thickness
+    assert [len(ax.patches) for ax in figure.axes] == [1, 1, 1]
+    labels = [label.get_text() for label in figure.axes[0].get_yticklabels()]
+    assert labels == ["default", "kinetic [2]", "no mass scaling, 1.1"]
     shown = [ax.get_title() for ax in gallery(fields).axes if ax.get_title()]
-    assert [title.splitlines()[0] for title in shown] == ["converged", "folded globally"]
+    assert [title.splitlines()[0] for title in shown] == ["sound", "folded globally"]
     plt.close("all")
+
+
+def test_what_was_published_is_on_the_map():
+    for observation in OBSERVATIONS:
+        for row in observation.rows:
+            assert any(row in (s.words, s.method) for s in SETTINGS.values()), row
 
 
 def test_a_crumple_is_measured_in_every_way():
