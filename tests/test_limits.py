@@ -11,6 +11,8 @@ from foilstudy.measure.choices import STRESS_REMOVALS
 from foilstudy.model.shell.elements import ELEMENTS
 from foilstudy.pipeline.measures import STIFFNESS_MEASURES
 from foilstudy.solve.choices import DAMPINGS, MASSES, PATHS
+from foilstudy.study import jobs
+from foilstudy.study.kernel.files import read_record
 from foilstudy.study.kernel.plan import Record, case_name
 from foilstudy.study.limits.figures import chart, gallery
 from foilstudy.study.limits.map import mapped
@@ -22,7 +24,7 @@ from foilstudy.study.limits.plan import LIMITS, SETTINGS, STUDY, Trial
 from foilstudy.study.limits.published import OBSERVATIONS
 from foilstudy.study.limits.quick import STUDY as QUICK
 from foilstudy.study.limits.settings import read_limits
-from foilstudy.study.limits.tables import page, rows
+from foilstudy.study.limits.tables import page, rows, verdict_words
 from foilstudy.study.limits.trial import measure, recipe_of
 from foilstudy.study.published import foil
 
@@ -218,3 +220,24 @@ def test_a_crumple_is_measured_in_every_way():
     assert "500 um, 135 mm, ramp 300" in heads and first == "| tangent, axial | 1.00 |"
     table = rows_of_measures(records)
     assert len(table) == 2 * (len(LIMITS.measures.ways) + len(STRESS_REMOVALS))
+
+
+def test_a_corner_of_the_quick_map_by_its_jobs(tmp_path):
+    """As the workflow calls them, and judged by the numbers in their records."""
+    words = ("default", "no mass scaling, 1.1", "ring alone, no scaling, ramp, 100")
+    part = QUICK.part("trials")
+    corner = [
+        case
+        for case in part.cases
+        if SETTINGS[case.setting].words in words and case.thickness_um == 500
+    ]
+    records = {}
+    for case in corner:
+        path = tmp_path / part.files(case_name(case))[0]
+        path.parent.mkdir(exist_ok=True)
+        jobs.measure(QUICK.name, part.name, case_name(case), path)
+        records[case] = read_record(QUICK, path)
+    fields = mapped({"trials": records})
+    default, too_long, ring_alone = map(verdict_words, fields)
+    assert (default, too_long) == ("none", "diverged (1)") and "folded globally (1)" in ring_alone
+    assert [field.sound for field in fields] == [1, 0, 0]
