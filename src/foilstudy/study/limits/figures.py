@@ -7,7 +7,6 @@ from textwrap import fill
 import numpy as np
 from matplotlib.patches import Rectangle
 
-from foilstudy.measure.verdicts import VERDICTS
 from foilstudy.plot import style
 from foilstudy.plot.single import draw_shape
 from foilstudy.study.kernel.plan import Record
@@ -16,9 +15,9 @@ from foilstudy.study.limits.published import OBSERVATIONS
 from foilstudy.study.limits.settings import DEFAULT
 from foilstudy.study.published import RADIUS
 
-_ROW, _COLUMN, _LABELS, _TOP = 0.16, 0.47, 2.2, 1.1
+_ROW, _COLUMN, _LABELS, _TOP = 0.15, 0.43, 2.1, 1.1
 """Of a cell, of the names on the left and of what is above and below, inches."""
-_FONT, _LETTERS_PER_INCH = 6.0, 18
+_FONT, _LETTERS_PER_INCH = 5.8, 18
 _WORST = 0.6
 """Bias at which the colour is full."""
 _MARKS = {
@@ -34,17 +33,16 @@ _MARKS = {
     "spurious": "?",
 }
 """Of what speaks against a method, in the map."""
-_SHOWN = (
-    "saddle",
-    "folded_globally",
-    "hourglassed",
-    "locked",
-    "rate_dependent",
-    "self_crossing",
-    "spurious",
-    "not_converged",
-)
-"""What an example is shown of, where the map has one; what has diverged leaves no shape."""
+_CLEAREST = {
+    "saddle": lambda result: result["negative_eigenvalues"],
+    "folded_globally": lambda result: result["broad_wave_share"],
+    "hourglassed": lambda result: result["hidden_energy"],
+    "locked": lambda result: result["membrane_energy"] / result["bending_energy"],
+    "spurious": lambda result: -result["least_stiffness"],
+    "self_crossing": lambda result: result["self_crossing_share"],
+    "rate_dependent": lambda result: result["work_over_energy"],
+}
+"""By verdict that leaves a shape, what is greatest where it is clearest."""
 _PICTURE = 2.1
 
 
@@ -123,7 +121,7 @@ def gallery(fields: list[Field]):
 
 
 def _examples(fields: list[Field]) -> list[tuple[str, Field, Record]]:
-    """The default, then by verdict the trial that has it and fewest others; the first of these."""
+    """The default, then by verdict the trial in which it is clearest."""
     shapes = [
         (field, record)
         for field in fields
@@ -132,8 +130,8 @@ def _examples(fields: list[Field]) -> list[tuple[str, Field, Record]]:
     ]
     sound = [each for each in shapes if each[0].setting.method == DEFAULT and is_sound(each[1])]
     examples = [("sound", *each) for each in sound[:1]]
-    for name in (v.name for v in VERDICTS if v.name in _SHOWN):
+    for name, clear in _CLEAREST.items():
         having = [each for each in shapes if name in found(each[1])]
         if having:
-            examples.append((name, *min(having, key=lambda each: len(found(each[1])))))
+            examples.append((name, *max(having, key=lambda each: clear(each[1].result))))
     return examples
