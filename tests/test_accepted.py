@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 import yaml
 from hypothesis import HealthCheck, assume, given, settings
@@ -13,9 +14,17 @@ from foilstudy.config import ConfigError, CrumpleTask, RefineTask, ResponseTask,
 from foilstudy.config.chosen import choices
 from foilstudy.config.foils import foil_of, patch_of
 from foilstudy.config.scene import dynamics_of, recipe_of
-from foilstudy.config.slips import known_to_fail, likely_slips
+from foilstudy.config.slips import first_buckling, known_to_fail, likely_slips, unresolved
+from foilstudy.model.patch import Patch, fitted_control_points
+from foilstudy.model.supports.loads import edge_load
 from foilstudy.solve.choices import DAMPINGS, MASSES
+from foilstudy.solve.loading.buckling import buckling_modes
+from foilstudy.solve.loading.loaded_sheet import LoadedSheet
+from foilstudy.study.published import FEP
 from foilstudy.study.sweep.expected import costly, expected
+from foilstudy.study.verification.candidates import CANDIDATES
+from foilstudy.study.verification.stability import half_waves, radial_displacement, sliding_cell
+from foilstudy.study.verification.theory_cylinder import Cylinder, classical_buckling_stress
 
 FILES = STUDY_FILES
 FOIL = {"thickness_um": [500], "reference_height_mm": [170]}
@@ -144,6 +153,45 @@ def test_what_is_known_to_fail_is_told_with_its_cure(sections, essence, capsys, 
     path.write_text(study.to_yaml(), encoding="utf-8")
     main(["check", str(path)])
     assert sentence in capsys.readouterr().out
+
+
+def test_elements_whose_rings_buckle_early_are_told_before_the_start():
+    def said(thickness_um, **mesh):
+        sweep = FOIL | {"thickness_um": [thickness_um]}
+        return unresolved(load_config({"sweep": sweep, "mesh": mesh}))
+
+    # 2.5 mm at 50 um is 1.1 sqrt(R t): rings of one element buckle at half the load
+    (folds,) = said(50, element_size_mm=2.5)
+    assert "rings of them buckle at 50 % of the load of theory" in folds and "use auto" in folds
+    # at 500 um it is 0.35, 5 mm 0.71
+    (rings,) = said(500, element_size_mm=5)
+    assert "at 80 % of the load of theory" in rings and "use 2.8 mm at most" in rings
+    assert not said(500, element_size_mm=2.5) and not said(500) and not said(50)
+    (other,) = said(50, element_size_mm=2.5, element="one_point")
+    assert "rings" not in other  # which errs to the other side
+
+
+@pytest.mark.parametrize("slenderness", [0.4, 0.8, 1.6])
+def test_rings_buckle_as_early_as_is_said(slenderness):
+    """Buckling of a strip of a perfect cylinder, three elements wide, by its tangent."""
+    radius, thickness = 0.1, 50e-6
+    size = slenderness * np.sqrt(radius * thickness)
+    patch = Patch(3, 24, size, size, periodic=False)
+
+    def surface(around, height):
+        angle = around / radius
+        return np.stack([radius * np.cos(angle), radius * np.sin(angle), height])
+
+    points = fitted_control_points(patch, surface)
+    strip = CANDIDATES["corner"].sheet(patch, points, FEP, thickness)
+    load = edge_load(patch, points, "top", np.array([0.0, 0.0, -1.0]))
+    held = sliding_cell(patch, points, 3 * size / radius)
+    modes = buckling_modes(LoadedSheet(strip, held, load), 2)
+    cylinder = Cylinder(radius, 24 * size, thickness, FEP)
+    found = modes.factors[0] / (classical_buckling_stress(cylinder) * thickness)
+    expected = first_buckling(slenderness, FEP.poisson_ratio)
+    assert found == pytest.approx(expected, rel=0.02 if slenderness < 1 else 0.05)
+    assert half_waves(radial_displacement(points, modes.shapes[0]))[1] == 0  # rings
 
 
 def test_every_method_that_is_no_default_says_what_fails_with_it():

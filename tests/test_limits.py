@@ -11,6 +11,8 @@ from foilstudy.measure.choices import STRESS_REMOVALS
 from foilstudy.model.shell.elements import ELEMENTS
 from foilstudy.pipeline.measures import STIFFNESS_MEASURES
 from foilstudy.solve.choices import DAMPINGS, MASSES, PATHS
+from foilstudy.study import jobs
+from foilstudy.study.kernel.files import read_record
 from foilstudy.study.kernel.plan import Record, case_name
 from foilstudy.study.limits.figures import chart, gallery
 from foilstudy.study.limits.map import mapped
@@ -19,9 +21,10 @@ from foilstudy.study.limits.measures import measure as measure_every_way
 from foilstudy.study.limits.measures import page as page_of_measures
 from foilstudy.study.limits.measures import rows as rows_of_measures
 from foilstudy.study.limits.plan import LIMITS, SETTINGS, STUDY, Trial
+from foilstudy.study.limits.published import OBSERVATIONS
 from foilstudy.study.limits.quick import STUDY as QUICK
 from foilstudy.study.limits.settings import read_limits
-from foilstudy.study.limits.tables import page, rows
+from foilstudy.study.limits.tables import page, rows, verdict_words
 from foilstudy.study.limits.trial import measure, recipe_of
 from foilstudy.study.published import foil
 
@@ -186,9 +189,19 @@ def test_figures_show_each_verdict_and_an_example(fields):
     texts = {text.get_text() for ax in figure.axes for text in ax.texts}
     assert {"+0", "-50", "XF"} <= texts
     assert len(figure.axes) == 3
+    # of these rows one is published, of foil of this thickness
+    assert [len(ax.patches) for ax in figure.axes] == [1, 1, 1]
+    labels = [label.get_text() for label in figure.axes[0].get_yticklabels()]
+    assert labels == ["default", "kinetic [2]", "no mass scaling, 1.1"]
     shown = [ax.get_title() for ax in gallery(fields).axes if ax.get_title()]
-    assert [title.splitlines()[0] for title in shown] == ["converged", "folded globally"]
+    assert [title.splitlines()[0] for title in shown] == ["sound", "folded globally"]
     plt.close("all")
+
+
+def test_what_was_published_is_on_the_map():
+    for observation in OBSERVATIONS:
+        for row in observation.rows:
+            assert any(row in (s.words, s.method) for s in SETTINGS.values()), row
 
 
 def test_a_crumple_is_measured_in_every_way():
@@ -207,3 +220,24 @@ def test_a_crumple_is_measured_in_every_way():
     assert "500 um, 135 mm, ramp 300" in heads and first == "| tangent, axial | 1.00 |"
     table = rows_of_measures(records)
     assert len(table) == 2 * (len(LIMITS.measures.ways) + len(STRESS_REMOVALS))
+
+
+def test_a_corner_of_the_quick_map_by_its_jobs(tmp_path):
+    """As the workflow calls them, and judged by the numbers in their records."""
+    words = ("default", "no mass scaling, 1.1", "ring alone, no scaling, ramp, 100")
+    part = QUICK.part("trials")
+    corner = [
+        case
+        for case in part.cases
+        if SETTINGS[case.setting].words in words and case.thickness_um == 500
+    ]
+    records = {}
+    for case in corner:
+        path = tmp_path / part.files(case_name(case))[0]
+        path.parent.mkdir(exist_ok=True)
+        jobs.measure(QUICK.name, part.name, case_name(case), path)
+        records[case] = read_record(QUICK, path)
+    fields = mapped({"trials": records})
+    default, too_long, ring_alone = map(verdict_words, fields)
+    assert (default, too_long) == ("none", "diverged (1)") and "folded globally (1)" in ring_alone
+    assert [field.sound for field in fields] == [1, 0, 0]

@@ -98,6 +98,21 @@ def test_every_mesh_between_that_of_the_ramp_and_the_last_is_relaxed():
     assert crumpled.patch == Mesh(15e-3).patch(FOIL).refined().refined()
 
 
+@pytest.mark.parametrize("height", [0.17, 0.25])
+def test_an_elastic_foil_has_one_shape_whatever_its_modulus(height):
+    """All forces, masses and stiffnesses scale with it, and by powers of four without rounding."""
+    soft, stiff = (
+        crumple(
+            replace(FOIL, reference_height=height, material=replace(FEP, youngs_modulus=modulus)),
+            COARSE, Imperfection(), QUICK,
+        )
+        for modulus in (325e6, 1300e6)
+    )  # fmt: skip
+    assert soft.status == "converged"
+    assert np.abs(stiff.points - soft.points).max() < 1e-12
+    assert stiff.stiffness() == pytest.approx(4 * soft.stiffness(), rel=1e-9)
+
+
 def test_it_can_be_looked_at(crumpled):
     axes = crumpled.plot()
     (image,) = axes.images

@@ -179,6 +179,9 @@ def test_a_spring_between_rings_costs_nothing_as_a_whole_and_a_negative_one_show
 # --- trials of the map, labelled by method and picture ------------------------------------------
 
 LABELLED = json.loads((Path(__file__).parent / "reference/labelled.json").read_text())
+HELD_BACK = [trial for trial in LABELLED if trial.get("held_back")]
+"""Of 135 and 250 mm, made and labelled when all limits stood."""
+KNOWN = [trial for trial in LABELLED if trial not in HELD_BACK]
 JUDGED = {"diverged", "folded_globally", "hourglassed", "locked"}
 
 
@@ -186,13 +189,29 @@ def judged(trial):
     return names(Evidence.of(trial["status"], trial["evidence"])) & JUDGED
 
 
+def missed(trials):
+    return [trial for trial in trials if set(trial["label"]) - judged(trial)]
+
+
+def false(trials):
+    return [trial for trial in trials if judged(trial) - set(trial["label"])]
+
+
 def test_labelled_trials_are_judged_as_they_were_labelled():
-    assert len(LABELLED) >= 60
-    kinds = {label for trial in LABELLED for label in trial["label"]}
+    assert len(KNOWN) >= 60
+    kinds = {label for trial in KNOWN for label in trial["label"]}
     assert kinds == JUDGED
-    assert not [t for t in LABELLED if set(t["label"]) - judged(t)]
-    wrong = [t for t in LABELLED if judged(t) - set(t["label"])]
-    assert len(wrong) < 0.05 * len(LABELLED), wrong
+    assert not missed(KNOWN)
+    assert len(false(KNOWN)) < 0.05 * len(KNOWN), false(KNOWN)
+
+
+def test_of_trials_that_were_held_back_none_is_convicted_and_only_known_ones_are_missed():
+    """Folds beside a ring that moves alone, at 92 % overlength, are told from 0.7 on."""
+    assert len(HELD_BACK) >= len(KNOWN)
+    assert not false(HELD_BACK)
+    assert len(missed(HELD_BACK)) <= 6
+    for trial in missed(HELD_BACK):
+        assert trial["method"].startswith("ring alone") and trial["height_mm"] == 250, trial
 
 
 # --- what elements do not see, and the work of the ring ------------------------------------------

@@ -6,17 +6,18 @@ A refusal needs certainty; here a sentence says what looks wrong, and the study 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 
 from foilstudy.base.numerals import number
 from foilstudy.model.mesh_size import SLENDERNESS_MAX
 
+from .accuracy import AUTO
 from .choices import cautions_of
 from .model import StudyConfig
 from .sections import RAMP_STEPS_MIN
 
-__all__ = ["known_to_fail", "likely_slips", "unresolved"]
+__all__ = ["first_buckling", "known_to_fail", "likely_slips", "unresolved"]
 
 THICKNESS_MIN_UM = 1.0
 """Thinner foils are not on sale."""
@@ -40,6 +41,9 @@ RAMP_SLOWNESS_MIN = 0.5
 """Steps of the ramp for each unit of R/t: twice the fastest ramp at which a foil of 31 % overlength
 has locked, hourglassed or folded (results/limits: 0.05 of 100 um and 0.1 of 50 um do, 0.25 do not;
 at 190 % overlength 0.25 diverge)."""
+RING_SLENDERNESS_MAX = 0.4
+"""Size of the elements over sqrt(R t) up to which a cylinder buckles at the load of theory to
+within 6 %; `auto` stays below the energy error that it is asked for."""
 ELEMENTS_MAX = 200_000
 """Of the mesh that is crumpled: ten times the finest of docs/convergence.md."""
 
@@ -64,22 +68,67 @@ def known_to_fail(study: StudyConfig) -> list[str]:
 
 
 def unresolved(study: StudyConfig) -> list[str]:
-    """A sentence about foils whose folds the mesh cannot follow; none where it resolves all."""
+    """Sentences about foils whose folds or first buckles the mesh cannot follow; none if it can."""
     radius = study.sheet.diameter_mm / 2
-    wide = {
-        thickness: size / math.sqrt(radius * thickness * 1e-3)
+    widths = {
+        thickness: study.mesh_of(thickness).element_size_mm / math.sqrt(radius * thickness * 1e-3)
         for thickness in study.thicknesses_um
-        for size in (study.mesh_of(thickness).element_size_mm,)
-        if size > SLENDERNESS_MAX * (1 + 1e-6) * math.sqrt(radius * thickness * 1e-3)
     }
-    if not wide:
-        return []
-    widths = _those([float(f"{width:.2g}") for width in wide.values()])
-    return [
-        f"mesh.element_size_mm does not resolve {_those(list(wide))} um: its elements are {widths} "
-        f"times sqrt(R t) wide, and folds need {SLENDERNESS_MAX:g} at most, so the report will not "
-        "trust those stiffnesses; use auto, or a finer size."
-    ]
+    wide = {t: w for t, w in widths.items() if w > SLENDERNESS_MAX * (1 + 1e-6)}
+    early = {t: w for t, w in widths.items() if t not in wide and w > RING_SLENDERNESS_MAX}
+    return [*_of_folds(study, wide), *_of_first_buckling(study, early)]
+
+
+def _of_folds(study: StudyConfig, wide: Mapping[float, float]) -> Iterator[str]:
+    """Where elements are wider than folds; widths over sqrt(R t) by thickness in um."""
+    if wide:
+        rings = f", rings of them buckle at {_loads(study, wide)}" if _is_corner(study) else ""
+        yield (
+            f"mesh.element_size_mm does not resolve {_those(list(wide))} um: its elements are "
+            f"{_rounded(wide.values())} times sqrt(R t) wide{rings}, and folds need "
+            f"{SLENDERNESS_MAX:g} at most, so the report will not trust those stiffnesses; use "
+            "auto, or a finer size."
+        )
+
+
+def _of_first_buckling(study: StudyConfig, early: Mapping[float, float]) -> Iterator[str]:
+    """Where a size that was given, and so no error, lets rings buckle before their time."""
+    if early and _is_corner(study) and study.mesh.element_size_mm != AUTO:
+        size, radius = study.mesh.element_size_mm, study.sheet.diameter_mm / 2
+        finest = RING_SLENDERNESS_MAX * math.sqrt(radius * min(early) * 1e-3)
+        yield (
+            f"mesh.element_size_mm of {size:g} mm lets {_those(list(early))} um buckle first at "
+            f"{_loads(study, early)}; crumples are little the worse for it (docs/limits.md), but "
+            f"where the first buckles matter, use {finest:.2g} mm at most."
+        )
+
+
+def _is_corner(study: StudyConfig) -> bool:
+    """Whether `first_buckling` is about its element."""
+    return study.mesh.element == "corner"
+
+
+def _loads(study: StudyConfig, widths: Mapping[float, float]) -> str:
+    poisson = study.material.poisson_ratio
+    loads = (100 * first_buckling(width, poisson) for width in widths.values())
+    return f"{_rounded(loads)} % of the load of theory"
+
+
+def first_buckling(slenderness: float, poisson_ratio: float) -> float:
+    """Axial load at which a cylinder of corner elements buckles, over the classical one.
+
+    The least of (x + 1/x)/2 - q over waves of two elements and longer, x <= 1/(2 q), where x is the
+    square of the wave number over the critical one and q = sqrt(3 (1 - nu^2)) h^2 / (4 R t) is what
+    the corners do not feel of the stretching of rings (docs/verification.md).
+
+    Parameters
+    ----------
+    slenderness : float
+        h / sqrt(R t).
+    poisson_ratio : float
+    """
+    unfelt = math.sqrt(3 * (1 - poisson_ratio**2)) * slenderness**2 / 4
+    return 1 - unfelt if unfelt < 0.5 else 1 / (4 * unfelt)
 
 
 def _outside(value: float, bounds: tuple[float, float]) -> bool:
@@ -90,6 +139,11 @@ def _those(values: Sequence[float]) -> str:
     """One value, or the range of several."""
     low, high = min(values), max(values)
     return f"{low:g}" if low == high else f"{low:g} to {high:g}"
+
+
+def _rounded(values: Iterable[float]) -> str:
+    """The same with two digits."""
+    return _those([float(f"{value:.2g}") for value in values])
 
 
 def _of_sizes(study: StudyConfig) -> Iterator[str]:

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-import numpy as np
+from textwrap import fill
 
-from foilstudy.measure.verdicts import VERDICTS
+import numpy as np
+from matplotlib.patches import Rectangle
+
 from foilstudy.plot import style
 from foilstudy.plot.single import draw_shape
 from foilstudy.study.kernel.plan import Record
-from foilstudy.study.limits.map import QUANTITIES, Field, found
+from foilstudy.study.limits.map import QUANTITIES, Field, found, is_sound
+from foilstudy.study.limits.published import OBSERVATIONS
+from foilstudy.study.limits.settings import DEFAULT
 from foilstudy.study.published import RADIUS
 
-_ROW, _COLUMN, _LABELS, _TOP = 0.15, 0.58, 2.2, 0.8
-"""Of a cell, of the names on the left and of the heads above, inches."""
-_FONT = 5.5
+_ROW, _COLUMN, _LABELS, _TOP = 0.15, 0.43, 2.1, 1.1
+"""Of a cell, of the names on the left and of what is above and below, inches."""
+_FONT, _LETTERS_PER_INCH = 5.8, 18
 _WORST = 0.6
 """Bias at which the colour is full."""
 _MARKS = {
@@ -29,33 +33,42 @@ _MARKS = {
     "spurious": "?",
 }
 """Of what speaks against a method, in the map."""
-_SHOWN = (
-    "converged",
-    "saddle",
-    "folded_globally",
-    "hourglassed",
-    "locked",
-    "spurious",
-    "not_converged",
-)
-_PICTURE = 2.3
+_CLEAREST = {
+    "saddle": lambda result: result["negative_eigenvalues"],
+    "folded_globally": lambda result: result["broad_wave_share"],
+    "hourglassed": lambda result: result["hidden_energy"],
+    "locked": lambda result: result["membrane_energy"] / result["bending_energy"],
+    "spurious": lambda result: -result["least_stiffness"],
+    "self_crossing": lambda result: result["self_crossing_share"],
+    "rate_dependent": lambda result: result["work_over_energy"],
+}
+"""By verdict that leaves a shape, what is greatest where it is clearest."""
+_PICTURE = 2.1
 
 
 @style.styled
 def chart(fields: list[Field]):
-    """Bias by method and foil, with a mark for what speaks against it."""
+    """Bias by method and foil, a mark for what speaks against it, what was published framed."""
     settings = list(dict.fromkeys(field.setting for field in fields))
     foils = list(dict.fromkeys(field.foil for field in fields))
     cells = {(field.setting, field.foil): field for field in fields}
-    width = _LABELS + _COLUMN * len(foils) * len(QUANTITIES) + 0.4
-    figure = style.new_figure(width, _TOP + _ROW * len(settings) + 0.5)
+    width = _LABELS + _COLUMN * len(foils) * len(QUANTITIES)
+    figure = style.new_figure(width, _TOP + _ROW * len(settings))
     axes = figure.subplots(1, len(QUANTITIES), sharey=True)
     for ax, quantity in zip(axes, QUANTITIES, strict=True):
         _panel(ax, quantity, settings, foils, cells)
-    axes[0].set_yticks(range(len(settings)), [s.words for s in settings], fontsize=_FONT)
+    axes[0].set_yticks(range(len(settings)), map(_row_words, settings), fontsize=_FONT)
     marks = ", ".join(f"{mark} {name.replace('_', ' ')}" for name, mark in _MARKS.items())
-    figure.supxlabel(f"per cent over the default; {marks}", fontsize=_FONT, wrap=True)
+    seen = "; ".join(f"[{k}] {each.words}" for k, each in enumerate(OBSERVATIONS, 1))
+    lines = [f"per cent over the default; {marks}", f"framed: published of it is {seen}"]
+    wide = int(_LETTERS_PER_INCH * width)
+    figure.supxlabel("\n".join(fill(line, wide) for line in lines), fontsize=_FONT)
     return figure
+
+
+def _row_words(setting) -> str:
+    numbers = [f"[{k}]" for k, each in enumerate(OBSERVATIONS, 1) if each.names(setting)]
+    return " ".join([setting.words, *numbers])
 
 
 def _panel(ax, quantity, settings, foils, cells) -> None:
@@ -74,6 +87,8 @@ def _panel(ax, quantity, settings, foils, cells) -> None:
                 j, i, f"{text} {marks}".strip(), ha="center", va="center", fontsize=_FONT,
                 color="white" if dark else "black",
             )  # fmt: skip
+            if any(each.marks(setting, foil.thickness_um) for each in OBSERVATIONS):
+                ax.add_patch(Rectangle((j - 0.5, i - 0.5), 1, 1, fill=False, lw=0.9, zorder=3))
     ax.imshow(
         np.clip(values, -_WORST, _WORST), cmap="RdBu_r", vmin=-_WORST, vmax=_WORST, aspect="auto"
     )
@@ -92,7 +107,7 @@ def _panel(ax, quantity, settings, foils, cells) -> None:
 
 @style.styled
 def gallery(fields: list[Field]):
-    """One example of every verdict that leaves a shape."""
+    """A sound crumple, and one example of every verdict against one that leaves a shape."""
     examples = _examples(fields)
     if not examples:
         return style.message_figure("no trial has left a shape")
@@ -100,25 +115,23 @@ def gallery(fields: list[Field]):
     for ax, (name, field, record) in zip(axes.flat, examples):
         title = f"{name.replace('_', ' ')}: {field.foil.words}, {field.setting.words}"
         draw_shape(np.asarray(record.result["points"], float), RADIUS, title, ax)
-        ax.set_title(title.replace(": ", "\n").replace(" mm, ", " mm\n"), fontsize=_FONT)
-        ax.set_xlabel("")
-        ax.set_xticks([])
-        ax.set_yticks([])
+        ax.set_title(title.replace(": ", "\n").replace(" mm, ", " mm\n"), fontsize=8)
+        ax.set_axis_off()
     return figure
 
 
 def _examples(fields: list[Field]) -> list[tuple[str, Field, Record]]:
-    """By verdict, the first trial that has it and, if there is one, no other that is rarer."""
-    order = [v.name for v in VERDICTS if v.name in _SHOWN]
-    examples = []
-    for name in order:
-        having = [
-            (len(found(record)), i, field, record)
-            for i, field in enumerate(fields)
-            for record in field.records
-            if name in found(record) and np.size(record.result["points"])
-        ]
+    """The default, then by verdict the trial in which it is clearest."""
+    shapes = [
+        (field, record)
+        for field in fields
+        for record in field.records
+        if np.size(record.result["points"])
+    ]
+    sound = [each for each in shapes if each[0].setting.method == DEFAULT and is_sound(each[1])]
+    examples = [("sound", *each) for each in sound[:1]]
+    for name, clear in _CLEAREST.items():
+        having = [each for each in shapes if name in found(each[1])]
         if having:
-            _, _, field, record = min(having, key=lambda each: each[:2])
-            examples.append((name, field, record))
+            examples.append((name, *max(having, key=lambda each: clear(each[1].result))))
     return examples
