@@ -13,7 +13,7 @@ from foilstudy.bench.estimation.best_linear import best_linear, measured_lines
 from foilstudy.bench.estimation.estimate import Estimate
 from foilstudy.bench.estimation.periods import Periods
 from foilstudy.bench.estimation.procedure import Published
-from foilstudy.bench.estimation.several import interface_lines, transfer_matrix
+from foilstudy.bench.estimation.several import TransferMatrix, interface_lines, transfer_matrix
 from foilstudy.bench.estimation.spectra import Blocks
 from foilstudy.bench.estimation.static import STATIC_BAND_HZ
 from foilstudy.bench.estimation.subtraction import without_bypass
@@ -193,7 +193,11 @@ def biases(
     def estimates(of: Rig, chosen: Iterable[str]) -> dict[str, list[Estimate]]:
         records = drive.records(of)
         found = {way: [ways[way](*record) for record in records] for way in chosen}
-        found["six runs"] = [_six_runs(runs, rig, drive) for runs in drive.runs(of)]
+        cut = Periods(drive.period_s)
+        found["six runs"] = [
+            _six_runs(runs, cut, rig.gap_m, band_hz[1]).along(rig.shaker.motion)
+            for runs in drive.runs(of)
+        ]
         return found
 
     def bias(fault: str, way: str, estimates: list[Estimate]) -> Bias:
@@ -215,11 +219,12 @@ def biases(
             yield bias(fault, f"{way}, empty rig taken off", taken_off)
 
 
-def _six_runs(runs: list[tuple[Measurement, np.ndarray]], rig: Rig, drive: Drive) -> Estimate:
+def _six_runs(
+    runs: list[tuple[Measurement, np.ndarray]], cut: Periods, gap_m: float, highest_hz: float
+) -> TransferMatrix:
     """Whole periods of runs with the shaker at six places."""
-    cut = Periods(drive.period_s)
-    means = [interface_lines(run, cut, rig.gap_m, drive.high_hz) for run, _ in runs]
-    return transfer_matrix(means, runs[0][1]).along(rig.shaker.motion)
+    means = [interface_lines(run, cut, gap_m, highest_hz) for run, _ in runs]
+    return transfer_matrix(means, runs[0][1])
 
 
 def _ways(rig: Rig, drive: Drive) -> dict[str, _Processing]:
