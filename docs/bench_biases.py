@@ -25,7 +25,7 @@ from foilstudy.pipeline.structures import stress_free_structure
 
 TABLE = Path(__file__).parents[1] / "results/bench/biases.csv"
 GAP = 0.13
-FOILS = [(t, h) for t in (250, 500) for h in (135, 170, 250)]
+FOILS = [(t, h) for t in (130, 250, 500) for h in (135, 170, 250)]
 SPRING = Spring(198.0, 2000.0, 50.0, 50.0, GAP)
 MOTIONS = {"axial": 2, "radial": 0}
 DISCREPANCY = 3.7
@@ -48,7 +48,7 @@ def rows(thickness_um: int, height_mm: int) -> pd.DataFrame:
     link, found = specimen(thickness_um, height_mm), []
     for direction, motion in MOTIONS.items():
         rig = Rig(link, GAP, shaker=Shaker(motion=motion))
-        for bias in biases(rig, Drive(realisations=3)):
+        for bias in biases(rig, Drive(realisations=3, rate_hz=500.0)):
             found.append(
                 {
                     "thickness_um": thickness_um,

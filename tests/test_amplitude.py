@@ -411,6 +411,13 @@ def test_the_side_study_shows_what_it_measures(small, tmp_path, monkeypatch):
         "sweeps": {c: swept_axially[c.prestressed] for c in STUDY.part("sweeps").cases},
         "modes": dict.fromkeys(STUDY.part("modes").cases, formed),
     }
+    spread = STUDY.part("spreads").cases
+    near = measure.spread(spread[0], {})
+    assert near["linear_amplitude"] == pytest.approx(swept_axially[False]["linear_amplitude"])
+    beyond = near | {"linear_amplitude": None}
+    lost = beyond | {"ended_early": True}
+    by_seed = {0: near, 1: near, 2: beyond, 3: beyond, 4: beyond, 5: lost}
+    results["spreads"] = {case: by_seed[case.seed] for case in spread}
     let = measure.release(LETTINGS[0], {})
     results["releases"] = dict.fromkeys(LETTINGS, let)
     results["shapes"] = dict.fromkeys(STUDY.part("shapes").cases, {"points": small.points})
@@ -423,5 +430,7 @@ def test_the_side_study_shows_what_it_measures(small, tmp_path, monkeypatch):
     assert first["linear_amplitude_mm"] == pytest.approx(1e3 * curve.linear_amplitude())
     assert next(iter(tables.steps(findings)))["way"] == curve.sides[0].motion[0]
     page = tables.page(findings)
+    least = 1e3 * near["linear_amplitude"]
+    assert f"| > 1 | {least:.2g} | > 1 | 5 of 6 |" in page  # of five three are beyond
     assert "| axial | 0 |" in page and "softens" in page
     assert let["integrated"] == pytest.approx(let["normal_form"], abs=1e-3)

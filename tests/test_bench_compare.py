@@ -15,10 +15,14 @@ from foilstudy.bench.measured import READERS, read_response
 from foilstudy.bench.measured.conversion import UNITS, as_stiffness, unit_named
 from foilstudy.bench.measured.table import chosen
 from foilstudy.command import main
+from foilstudy.config import ConfigError, load_config
+from foilstudy.present import jobs
 from foilstudy.present.files import StudyFiles
-from foilstudy.present.measured import MeasuredFile, findings
+from foilstudy.present.measured import MeasuredFile, findings, measured_of, stale_page
+from foilstudy.present.redraw import redraw
 from foilstudy.present.report import write_report
 from foilstudy.present.statistics.tables import write_tables
+from foilstudy.study.sweep.origins import cube_origin
 
 F = np.array([1.0, 2.5, 10.0, 100.0])
 K, M = 2000.0, 0.3
@@ -445,3 +449,70 @@ def test_a_measurement_that_has_no_place_in_the_cube_stops_the_page(cube, tmp_pa
     with pytest.raises(SystemExit, match="--height is given 2 times for 1 measured files"):
         main([*words, "--height", "170", "--height", "135"])
     assert {path.name for path in tmp_path.iterdir()} == {"cube.nc", "run.csv"}
+
+
+# --- by the configuration of a study -------------------------------------------------------------
+
+
+def asked(file, **changed):
+    """A configuration that names a measurement of a thickness and height that it has."""
+    run = {"file": str(file), "thickness_um": 500, "height_mm": 170} | changed
+    sweep = {"thickness_um": [50, 500], "reference_height_mm": [135, 170]}
+    return load_config({"study": {"name": "seen"}, "sweep": sweep, "report": {"measured": [run]}})
+
+
+def test_a_study_names_what_was_measured_and_only_its_page_depends_on_it(cube, tmp_path):
+    write_cube(cube.copy(), tmp_path / "cube.nc")
+    run = written(simulated(cube, CASE), tmp_path / "run.csv")
+    study, page = asked(run), tmp_path / "report.html"
+    plain = study.simulated
+    assert not plain.report.measured and cube_origin(plain, {}, "") == cube_origin(
+        asked(run, direction="radial").simulated, {}, ""
+    )
+    write_tables(cube, tmp_path)
+    jobs.report(study, page)
+    assert "run.csv: 500 um, 170 mm (30.8 %), axial transfer" in page.read_text("utf-8")
+    assert list(stale_page(study, page)) == []
+    others = plain, asked(run, definition="driving")
+    assert all([each.path for each in stale_page(other, page)] == [page] for other in others)
+    written(simulated(cube, CASE), run, factor=2.0)
+    assert [each.path for each in stale_page(study, page)] == [page]
+    redraw(tmp_path)  # keeps those that the page shows
+    assert "run.csv: 500 um" in page.read_text("utf-8") and list(stale_page(study, page)) == []
+    jobs.report(plain, page)
+    assert "run.csv" not in page.read_text("utf-8") and list(stale_page(plain, page)) == []
+
+
+def test_a_page_says_why_a_measurement_stands_alone(tmp_path):
+    cube = make_cube(verdicts={(3, 2, s): FAILED for s in range(6)})
+    write_cube(cube, tmp_path / "cube.nc")
+    run = written(simulated(make_cube(), CASE), tmp_path / "run.csv")
+    write_tables(cube, tmp_path)
+    jobs.report(asked(run), tmp_path / "report.html")
+    page = (tmp_path / "report.html").read_text("utf-8")
+    assert "no realisation of 500 um, 170 mm is usable" in page
+
+
+@pytest.mark.parametrize(
+    ("changed", "words"),
+    [
+        (
+            {"thickness_um": 130},
+            r"measured\[0\].thickness_um is 130 um, which is not among sweep.t",
+        ),
+        ({"height_mm": 150}, r"height_mm is 150 mm, which is not among the reference heights"),
+        ({"height_mm": None}, r"height_mm is missing, and the study has several \(135, 170 mm\)"),
+        ({"hight_mm": 170}, r"report.measured\[0\].hight_mm is not a known key; did you mean"),
+    ],
+)
+def test_a_measurement_that_the_study_does_not_have_is_refused(changed, words):
+    with pytest.raises(ConfigError, match=words):
+        asked("run.csv", **changed)
+
+
+def test_a_measurement_that_cannot_be_read_is_refused_before_any_job(tmp_path):
+    with pytest.raises(Refusal, match=r"report.measured\[0\].file: .*there is no such file"):
+        measured_of(asked(tmp_path / "ran.csv"))
+    (tmp_path / "feet.csv").write_text("frequency (Hz),real (lbf/ft),imag (lbf/ft)\n1,2,3\n2,3,4\n")
+    with pytest.raises(Refusal, match=r"report.measured\[0\].file: .*lbf/ft"):
+        measured_of(asked(tmp_path / "feet.csv"))

@@ -10,6 +10,7 @@ from foilstudy.bench.estimation.best_linear import best_linear, excited_lines, m
 from foilstudy.bench.estimation.channels import along
 from foilstudy.bench.estimation.periods import Periods
 from foilstudy.bench.estimation.procedure import Published
+from foilstudy.bench.estimation.several import interface_lines, transfer_matrix
 from foilstudy.bench.estimation.spectra import Blocks
 from foilstudy.bench.estimation.static import Static
 from foilstudy.bench.estimation.subtraction import without_bypass
@@ -192,7 +193,7 @@ def test_blocks_of_a_whole_period_lose_little():
 
 
 def test_a_table_of_biases_names_steps_and_faults():
-    drive = Drive(high_hz=60.0, duration_s=24.0, rate_hz=150.0, realisations=2)
+    drive = Drive(high_hz=30.0, duration_s=24.0, rate_hz=80.0, realisations=2)
     table = list(biases(Rig(LINK, GAP), drive, Faults()))
     assert {row.rig for row in table} == {
         "none",
@@ -208,6 +209,72 @@ def test_a_table_of_biases_names_steps_and_faults():
     assert -5 < by["none", "published"] < -2
     assert by["bypass", "published"] < by["none", "published"] - 5
     assert abs(by["bypass", "periods, empty rig taken off"]) < 1
+    assert all(abs(by[fault, "six runs"]) < 0.5 for fault in ("none", "turning", "tilt"))
+    assert abs(by["bypass", "six runs, empty rig taken off"]) < 1
+
+
+# --- several runs --------------------------------------------------------------------------------
+
+
+class Lopsided:
+    """A massless link that pushes across when it is pulled, as a crumple does."""
+
+    kind = "lopsided"
+
+    def __init__(self):
+        lift = interface_rigid_modes(GAP)[6:]
+        half = np.linalg.cholesky(np.diag([16e3, 15e3, 3e3, 40.0, 40.0, 230.0]))
+        skew = np.random.default_rng(1).uniform(-0.3, 0.3, (6, 6))
+        springs = half @ (np.eye(6) + skew @ skew.T + 0.5 * (skew + skew.T)) @ half
+        relative = np.hstack([np.eye(6), -np.linalg.inv(lift)])
+        self.static = relative.T @ springs @ relative
+
+    def dynamic_stiffness(self, frequencies):
+        return np.tile(self.static.astype(complex), (len(frequencies), 1, 1))
+
+
+def six_runs(rig, tones, periods=4):
+    lines = [
+        interface_lines(
+            measured(replace(rig, shaker=each), tones, 200.0, periods * PERIOD, seed=k),
+            Periods(PERIOD), GAP, 60.0,
+        )
+        for k, each in enumerate(rig.shaker.around())
+    ]  # fmt: skip
+    return lines
+
+
+@pytest.mark.parametrize("fault", [None, "turning", "tilt"])
+def test_six_runs_tell_all_motions_apart_where_one_does_not(fault):
+    """On guided frames and on frames that turn; what rotations do only where there are some, and
+    the accelerometers do not take them for motions."""
+    rig = Rig(Lopsided(), GAP, shaker=Shaker(motion=2), sensors=QUIET)
+    rig = rig if fault is None else Faults().rigs(rig)[fault]
+    tones = Multisine(1.0, 40.0, 5.0, PERIOD).signal()
+    runs = six_runs(rig, tones)
+    found = transfer_matrix(runs, tones.lines)
+    truth = -rig.specimen.static[6:, :6]
+    kept = 6 if fault == "turning" else 3
+    scale = np.sqrt(np.outer(np.diag(truth), np.diag(truth)))
+    errors = (np.abs(found.values - truth) / scale)[:, :, :kept]
+    assert errors.max() < 2e-3
+    record = measured(rig, tones, 200.0, 4 * PERIOD)
+    alone = best_linear([measured_lines(record, Periods(PERIOD), 2, GAP, 60.0)], tones.lines)
+    assert np.abs(alone.values / truth[2, 2] - 1).max() > 0.05
+    with pytest.raises(Refusal, match="5 runs do not tell six motions apart"):
+        transfer_matrix(runs[:5], tones.lines)
+    with pytest.raises(Refusal, match="six independent ways"):
+        transfer_matrix([*runs[:5], runs[0]], tones.lines)
+
+
+def test_the_terms_of_six_runs_scatter_as_stated():
+    rig = Rig(Lopsided(), GAP)
+    tones = Multisine(1.0, 40.0, 5.0, PERIOD).signal()
+    found = transfer_matrix(six_runs(rig, tones, periods=9), tones.lines)
+    truth = -rig.specimen.static[6:, :6]
+    errors = np.abs(found.values - truth) / found.deviation
+    assert 0.6 < np.median(errors) < 1.1  # of a complex normal value 0.83
+    assert found.along(2).trusted.all()
 
 
 # --- records -------------------------------------------------------------------------------------

@@ -2,6 +2,8 @@
 
 import csv
 import re
+import shutil
+import subprocess
 from types import SimpleNamespace
 
 import meshio
@@ -11,6 +13,7 @@ import pyuff
 import xarray as xr
 from conftest import DIAMETER, FOIL, GAP_HEIGHT, THICKNESS, cylinder
 from scipy.io import loadmat
+from scipy.linalg import eigh
 from test_workflow import changed, plan
 
 from foilstudy.base.record import read_attributes, write_record
@@ -491,37 +494,145 @@ def test_the_abaqus_superelement_is_the_reduced_model(contents, folder):
     )
 
 
-def test_the_calculix_superelement_is_the_reduced_model(contents, folder):
-    """Its corners moved as rigid bodies do, which is what its deck says of them."""
-    deck = (folder / "superelement.inp").read_text().splitlines()
-    rows = [line.split(",") for line in deck if re.match(r"9\d+(, [-\d.e+]+){3}$", line)]
-    nodes = {int(n): np.array([float(v) for v in x]) for n, *x in rows if "." in x[0]}
-    (k, places), (m, same) = (
-        read_matrix((folder / f"superelement.{kind}").read_text().splitlines())
-        for kind in ("stiff", "mass")
+def read_calculix(path):
+    """K, M and C of a deck of masses, springs, dashpots and equations, and the places of its rows.
+
+    Every coordinate that an equation begins with is taken out by it.
+    """
+    kind, options, held, equation, numbers = "", {}, set(), [], []
+    elements, values, equations = {}, {}, []
+    for line in path.read_text().splitlines():
+        if line.startswith("**"):
+            continue
+        if line.startswith("*"):
+            kind, *rest = line.split(", ")
+            options = dict(each.split("=") for each in rest)
+            equation, numbers = [], []
+            continue
+        assert len(line) < 1320 and all(len(field.strip()) <= 20 for field in line.split(","))
+        fields = [field.strip() for field in line.split(",") if field.strip()]
+        if kind == "*ELEMENT":
+            elements.setdefault(options["ELSET"], []).append((options["TYPE"], *map(int, fields)))
+        elif kind in ("*MASS", "*SPRING", "*DASHPOT"):
+            values.setdefault(options["ELSET"], []).extend(map(float, fields))
+        elif kind == "*BOUNDARY":
+            node, first, last = map(int, fields)
+            held |= {(node, axis) for axis in range(first, last + 1)}
+        elif kind == "*EQUATION":
+            if not numbers:
+                numbers = [int(fields[0])]
+                continue
+            equation += [(int(n), int(a), float(v)) for n, a, v in zip(*[iter(fields)] * 3)]
+            if len(equation) == numbers[0]:
+                equations.append(equation)
+                numbers = []
+    found = {"MASS": {}, "SPRING1": {}, "DASHPOTA": {}}
+    for name, members in elements.items():
+        for kind, _, node, *other in members:
+            axes = {"MASS": (1, 2, 3), "SPRING1": (int(values[name][0]),)}.get(kind)
+            axes = axes or (other[0] - 9004,)
+            for axis in axes:
+                found[kind][node, axis] = values[name][-1]
+    rings = [(node, axis) for node in (9001, 9003, 9002, 9004) for axis in (1, 2, 3)]
+    led = {tuple(each[0][:2]): each for each in equations}
+    inner = sorted(found["MASS"].keys() - held - led.keys())
+    places = rings + inner
+    coordinates = inner + list(led)
+    follow = np.zeros((len(coordinates), len(places)))
+    for row, coordinate in enumerate(coordinates):
+        if coordinate not in led:
+            follow[row, places.index(coordinate)] = 1
+            continue
+        (_, _, own), *terms = led[coordinate]
+        for node, axis, value in terms:
+            follow[row, places.index((node, axis))] -= value / own
+    return (
+        follow.T
+        @ (np.array([found[kind].get(each, 0.0) for each in coordinates])[:, None] * follow)
+        for kind in ("SPRING1", "MASS", "DASHPOTA")
     )
-    assert places == same and all(freedom <= 3 for _, freedom in places)
-    assert len({node for node, _ in places}) <= 256 and {node for node, _ in places} <= set(nodes)
-    joined = np.zeros((len(places), len(contents.model.stiffness)))
-    corners = [list(map(int, line.split(", "))) for line in deck if re.match(r"[\d, ]+$", line)]
-    for ring, (reference, three) in enumerate(zip((9001, 9002), corners)):
-        assert f"*RIGID BODY, NSET=FOIL_{('BOTTOM', 'TOP')[ring]}, REF NODE={reference}, ROT " \
-            f"NODE={reference + 2}" in deck  # fmt: skip
-        for node in three:
-            arm = nodes[node] - nodes[reference]
-            assert np.linalg.norm(arm) == pytest.approx(DIAMETER / 2)
-            for axis in range(3):
-                row = places.index((node, 1 + axis))
-                joined[row, 6 * ring + axis] = 1
-                turns = np.cross(np.eye(3), arm)[:, axis]  # rotation x arm
-                joined[row, 6 * ring + 3 : 6 * ring + 6] = turns
-    inner = [row for row, (node, _) in enumerate(places) if node >= 9011]
-    joined[inner, INTERFACE:] = np.eye(len(inner))
-    for matrix, own in ((k, contents.model.stiffness), (m, contents.model.mass)):
-        scale = np.sqrt(np.outer(np.diag(own), np.diag(own)))
-        assert np.abs((joined.T @ matrix @ joined - own) / scale).max() < 1e-11
-    values = np.linalg.eigvalsh(k)  # six rigid motions, and three strains of each three corners
-    assert (np.abs(values[:12]) < 1e-9 * values[-1]).all() and values[12] > 0
+
+
+def test_the_calculix_superelement_is_the_reduced_model(contents, folder):
+    k, m, c = read_calculix(folder / "superelement.inp")
+    assert_same_stiffness(
+        second_order_stiffness(k, m, c, contents.frequencies), contents.dynamic_stiffness
+    )
+
+
+CCX = shutil.which("ccx")
+NODES = (9001, 9003, 9002, 9004)
+FREEDOMS = [(node, axis) for node in NODES for axis in (1, 2, 3)]
+
+
+def ccx(folder, *lines):
+    """What CalculiX prints of a model with the superelement in it."""
+    (folder / "model.inp").write_text(
+        "\n".join(
+            [
+                "*INCLUDE, INPUT=superelement.inp",
+                f"*NSET, NSET=RINGS\n{', '.join(map(str, NODES))}",
+                *lines,
+            ]
+        )
+    )
+    done = subprocess.run([CCX, "model"], cwd=folder, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0 and "*ERROR" not in done.stdout, done.stdout
+    return (folder / "model.dat").read_text()
+
+
+def displacements(printed):
+    """Of the nodes of the rings, shape (times printed, 12)."""
+    rows = re.findall(r"^ +(9\d{3})((?: +[-\d.E+]+){3})$", printed, re.MULTILINE)
+    by_node = {node: [] for node in NODES}
+    for node, values in rows:
+        by_node[int(node)].append(list(map(float, values.split())))
+    return np.hstack([np.array(by_node[node]) for node in NODES])
+
+
+@pytest.mark.skipif(CCX is None, reason="CalculiX (ccx) is not here")
+def test_calculix_finds_the_static_stiffness_of_all_ring_motions(contents, folder):
+    """Rings on springs, loaded one motion after the other: to the seven digits that it prints."""
+    expected = contents.model.static_stiffness
+    springs = np.abs(np.diag(expected))
+    lines = []
+    for k, (node, axis) in enumerate(FREEDOMS):
+        lines += [f"*ELEMENT, TYPE=SPRING1, ELSET=S{k}", f"{k + 1}, {node}"]
+        lines += [f"*SPRING, ELSET=S{k}", f"{axis}", f"{springs[k]:.13e}"]
+    for (node, axis), load in zip(FREEDOMS, springs):
+        lines += ["*STEP", "*STATIC", "*CLOAD, OP=NEW", f"{node}, {axis}, {load:.13e}"]
+        lines += ["*NODE PRINT, NSET=RINGS", "U", "*END STEP"]
+    compliance = displacements(ccx(folder, *lines)).T / springs
+    found = np.linalg.inv(compliance) - np.diag(springs)
+    assert np.abs((found - expected) / np.sqrt(np.outer(springs, springs))).max() < 2e-6
+
+
+@pytest.mark.skipif(CCX is None, reason="CalculiX (ccx) is not here")
+def test_calculix_finds_the_eigenfrequencies_and_the_driven_vibration(contents, folder):
+    held = ["*BOUNDARY", "9001, 1, 3", "9003, 1, 3"]
+    step = ["*STEP", "*FREQUENCY", "6", "*END STEP"]
+    printed = ccx(folder, *held, "9002, 1, 3", "9004, 1, 3", *step)
+    modes = re.findall(r"^ +\d+ +([\d.E+]+) +[\d.E+]+ +[\d.E+]+ +0\.0+E\+00$", printed, re.M)
+    found = np.sqrt(np.array(modes, float)) / (2 * np.pi)
+    np.testing.assert_allclose(found, contents.eigenfrequencies[:6], rtol=1e-6)
+
+    count, low, high = 12, 20.0, 100.0  # of the modes that it adds up, and the ends of the band
+    steps = ["*STEP", "*FREQUENCY, STORAGE=YES", f"{count}", "*END STEP"]
+    steps += ["*STEP", "*STEADY STATE DYNAMICS", f"{low}, {high}, 2"]
+    steps += ["*CLOAD", "9002, 3, 1.", "*NODE FILE", "U", "*NODE PRINT, NSET=RINGS", "U"]
+    found = displacements(ccx(folder, *held, *steps, "*END STEP"))[[0, 1, -2, -1], 6:]
+    model = contents.model
+    free = slice(INTERFACE // 2, None)
+    k, m, c = (
+        each[free, free]
+        for each in (model.stiffness, model.mass, damping_matrix(model, contents.damping))
+    )
+    _, vectors = eigh(k, m, subset_by_index=(0, count - 1))
+    for hz, real, imaginary in ((low, *found[:2]), (high, *found[2:])):
+        omega = 2 * np.pi * hz
+        dynamic = vectors.T @ (k - omega**2 * m + 1j * omega * c) @ vectors
+        expected = (vectors @ np.linalg.solve(dynamic, vectors[2]))[:6]
+        assert np.abs(real + 1j * imaginary - expected).max() < 2e-5 * np.abs(expected).max()
 
 
 # --- refusals, realisations, the command line and the study --------------------------------------
@@ -633,7 +744,7 @@ def test_command_line_writes_what_it_can_and_says_what_it_could_not(realisation,
     main(["export", str(realisation.folder), "--format=all"])
     out, err = capsys.readouterr()
     folder = realisation.folder / "exported"
-    refused = ["reduced.mat", "reduced.nc", "superelement_abaqus.inp"]
+    refused = ["reduced.mat", "reduced.nc", "superelement.inp", "superelement_abaqus.inp"]
     names = {kind.filename for kind in FORMATS.choices.values()} - set(refused)
     assert {path.name for path in folder.iterdir()} == names
     assert sorted(out.splitlines()) == sorted(f"wrote {folder / name}" for name in names)

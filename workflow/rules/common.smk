@@ -7,6 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+from foilstudy.base.errors import Refusal
 from foilstudy.base.manifest import MANIFEST
 from foilstudy.base.numerals import duration
 from foilstudy.config import ConfigError, load_merged
@@ -14,6 +15,7 @@ from foilstudy.config.chosen import choices
 from foilstudy.config.slips import likely_slips, unresolved
 from foilstudy.present.figures import FIGURES
 from foilstudy.present.files import StudyFiles
+from foilstudy.present.measured import measured_of
 from foilstudy.present.shown import shown
 from foilstudy.study.registry import refuse_reserved_name
 from foilstudy.study.sweep.expected import MEMORY_SPREAD, costly, expected
@@ -39,6 +41,11 @@ try:
     STUDY = read_study()
     refuse_reserved_name(STUDY.study.name)
 except ConfigError as problem:
+    refuse(problem)
+
+try:
+    MEASURED = measured_of(STUDY)
+except Refusal as problem:
     refuse(problem)
 
 RESULTS = f"results/{STUDY.study.name}"

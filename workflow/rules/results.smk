@@ -14,7 +14,7 @@ rule cube:
     output:
         f"{RESULTS}/cube.nc",
     params:
-        study=lambda wildcards: STUDY.model_dump_json(),
+        study=lambda wildcards: STUDY.simulated.model_dump_json(),
     log:
         f"{LOGS}/cube.log",
     benchmark:
@@ -97,6 +97,8 @@ rule report:
         figures=FIGURE_FILES,
         crumples=of_all(CRUMPLE),
         responses=of_all(RESPONSE),
+        # by a function, as a name may hold braces
+        measured=lambda wildcards: [str(each.path) for each in MEASURED],
     output:
         report(
             f"{RESULTS}/report.html",
@@ -106,6 +108,8 @@ rule report:
             labels={"page": STUDY.study.name},
         ),
         f"{RESULTS}/{MANIFEST}",
+    params:
+        study=lambda wildcards: STUDY.model_dump_json(),
     log:
         f"{LOGS}/report.log",
     benchmark:
@@ -115,4 +119,4 @@ rule report:
     message:
         "report"
     shell:
-        "{RUN} present.jobs:report {output[0]} {input.crumples} > {log} 2>&1"
+        "{RUN} present.jobs:report {params.study:q} {output[0]} {input.crumples} > {log} 2>&1"

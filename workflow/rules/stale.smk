@@ -6,6 +6,7 @@ cloning or deleting folders changes. The records themselves say what they were m
 
 from functools import cache
 
+from foilstudy.present.measured import stale_page
 from foilstudy.study.kernel.files import stale_results as stale_side_results
 from foilstudy.study.stale import sentences
 from foilstudy.study.sweep.stale import stale_results
@@ -24,7 +25,8 @@ def make_stale_again(folder):
         if folder in sides:
             found = list(stale_side_results(sides[folder], folder))
         else:
-            found = list(stale_results(STUDY, Path(folder), PRESENTED))
+            found = list(stale_results(STUDY.simulated, Path(folder), PRESENTED))
+            found += stale_page(STUDY, Path(folder, "report.html"))
         for sentence in sentences(folder, found):
             logger.warning(sentence)
         workflow.dag.forcefiles.update(str(each.path) for each in found)

@@ -5,23 +5,34 @@ Tables, pictures and pages have no room for their origin; a JSON file beside the
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from hashlib import sha256
 from pathlib import Path
+from typing import Any
 
 from foilstudy.base.files import read_json, write_json
 from foilstudy.base.origin import Origin
 
-__all__ = ["MANIFEST", "listed", "noted_origin", "outdated", "write_manifest"]
+__all__ = ["MANIFEST", "listed", "noted", "noted_origin", "outdated", "write_manifest"]
 
 MANIFEST = "manifest.json"
 
 
-def write_manifest(folder: Path, origin: Origin, files: Iterable[Path]) -> Path:
-    """Put down the origin of files in a folder, and the SHA-256 of each."""
+def write_manifest(
+    folder: Path, origin: Origin, files: Iterable[Path], notes: Mapping[str, Any] | None = None
+) -> Path:
+    """Put down the origin of files in a folder, the SHA-256 of each, and notes of whoever asks."""
     sums = {path.relative_to(folder).as_posix(): _sum(path) for path in files if path.is_file()}
-    write_json(origin.attributes() | {"sha256": sums}, folder / MANIFEST)
+    write_json(origin.attributes() | {"sha256": sums, **(notes or {})}, folder / MANIFEST)
     return folder / MANIFEST
+
+
+def noted(folder: Path) -> dict[str, Any]:
+    """The manifest of a folder; empty where there is none that can be read."""
+    try:
+        return dict(read_json(folder / MANIFEST))
+    except (OSError, ValueError, TypeError):
+        return {}
 
 
 def noted_origin(folder: Path) -> Origin:

@@ -41,9 +41,11 @@ def check(file: Path, /, *, cores: Cores = 2) -> None:
         YAML file of the study.
     """
     from foilstudy.config.slips import known_to_fail, likely_slips, unresolved
+    from foilstudy.present.measured import measured_of
     from foilstudy.study.sweep.expected import costly, expected
 
     study = read_study(file)
+    measured_of(study)
     cost = expected(study)
     lines = [f"{file}: no problem; results go to results/{study.study.name}.", ""]
     lines += (f"{name:10} {text}" for name, text in _resolved(study))

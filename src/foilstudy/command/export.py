@@ -24,7 +24,7 @@ def export(
         Such as results/NAME/realisations/t500um/h170mm/0.
     format : str
         nc, mat: reduced model; uff, csv: dynamic stiffness; vtu, npz: shape; inp: CalculiX;
-        abaqus; ccx, ccx_stiffness, ccx_mass: superelement;
+        abaqus, ccx: superelement;
         uff_receptance_free, uff_receptance_bottom_held, uff_accelerance_free,
         uff_accelerance_bottom_held, csv_receptance_free, csv_receptance_bottom_held,
         csv_accelerance_free, csv_accelerance_bottom_held, mat_motion: motion per force;

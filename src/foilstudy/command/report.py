@@ -34,7 +34,8 @@ def report(
         Folder results/NAME, or the cube.nc in it.
     measured : Path
         Measured dynamic stiffness as for compare, to stand on the page beside the simulated one;
-        may be given several times.
+        may be given several times. Without it the page keeps those that it shows, such as those of
+        report.measured in the configuration.
     thickness : float
         Of the foil, um, of each measurement in its order; one value is that of all.
     height : float
@@ -58,7 +59,8 @@ def report(
         "function": (function, None),
     }
     columns = [_one_each(name, given, len(files), or_) for name, (given, or_) in options.items()]
-    redrawn = redraw(results, [MeasuredFile.of(*each) for each in zip(files, *columns)])
+    given = [MeasuredFile.of(*each) for each in zip(files, *columns)]
+    redrawn = redraw(results, given or None)
     for path in redrawn.written:
         print(f"wrote {path}")
     for names, what in ((redrawn.kept, "left as they were"), (redrawn.left_out, "left out")):

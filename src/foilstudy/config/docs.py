@@ -81,6 +81,8 @@ def reference_page() -> str:
         parts.append(_section_table(name, section))
         if name == "installation":
             parts.append(_section_table("installation.moves[]", schema["$defs"]["RingMove"]))
+        if name == "report":
+            parts.append(_section_table("report.measured[]", schema["$defs"]["MeasuredRun"]))
         if name == "material":
             parts.append(_materials_table())
     parts.append(_RULES)

@@ -175,6 +175,11 @@ class StudyConfig(Section):
         }
 
     @property
+    def simulated(self) -> StudyConfig:
+        """The study without the measurements that its page alone shows."""
+        return self.model_copy(update={"report": self.report.model_copy(update={"measured": ()})})
+
+    @property
     def tier(self) -> Accuracy:
         """What the word `accuracy` stands for."""
         return ACCURACIES[self.accuracy]
@@ -199,6 +204,7 @@ class StudyConfig(Section):
         problems += self._thickness_problems()
         problems += self._installation_problems()
         problems += self._specimen_problems()
+        problems += self._measured_problems()
         if not problems:  # its meshes are there
             problems += self._contact_problems()
         problems += _duplicates("sweep.thickness_um", self.sweep.thickness_um, thickness_id)
@@ -233,6 +239,27 @@ class StudyConfig(Section):
                     f"{height:g} mm over sheet.gap_height_mm ({gap:g} mm), out of range; keep it "
                     f"to {HEIGHT_MAX_MM:g} mm, and check that the gap is in mm."
                 )
+
+    def _measured_problems(self) -> Iterator[str]:
+        """Measurements of configurations that the sweep does not have."""
+        kinds = (
+            ("thickness_um", "sweep.thickness_um", self.thicknesses_um, "um"),
+            ("height_mm", "the reference heights of the sweep", self.reference_heights_mm, "mm"),
+        )
+        for i, run in enumerate(self.report.measured):
+            for key, place, known, unit in kinds:
+                value = getattr(run, key)
+                shown = ", ".join(f"{each:g}" for each in known)
+                if value is None and len(known) > 1:
+                    yield (
+                        f"report.measured[{i}].{key} is missing, and the study has several "
+                        f"({shown} {unit}); say which one was measured."
+                    )
+                elif value is not None and all(abs(value / each - 1) > 1e-3 for each in known):
+                    yield (
+                        f"report.measured[{i}].{key} is {value:g} {unit}, which is not among "
+                        f"{place} ({shown} {unit}); give one of these."
+                    )
 
     def _installation_problems(self) -> Iterator[str]:
         moves, path = self.installation.moves, self.method.path

@@ -627,6 +627,30 @@ class Dynamics(Section):
         return []
 
 
+class MeasuredRun(Section):
+    """A measured dynamic stiffness from a file, and what it is of."""
+
+    file: str = unit_field(
+        "text",
+        "CSV, MAT or Universal File as for `foilstudy compare`, with its units; from the folder in "
+        "which the study is run.",
+        **TEXT,
+    )
+    thickness_um: float | None = unit_field(
+        "um", "One of the sweep; may be left out where there is one only.", None, gt=0, le=1e6
+    )
+    height_mm: float | None = unit_field(
+        "mm", "Reference height, one of the sweep; likewise.", None, gt=0, le=HEIGHT_MAX_MM
+    )
+    direction: Literal["axial", "radial"] = unit_field("choice", "Of the motion.", "axial")
+    definition: Literal["transfer", "driving", "relative"] = unit_field(
+        "choice", "Which dynamic stiffness it is.", "transfer"
+    )
+    function: str | None = unit_field(
+        "text", "Part of the name of the response, where the file holds several.", None, **TEXT
+    )
+
+
 class Report(Section):
     """The report page."""
 
@@ -639,4 +663,13 @@ class Report(Section):
         None,
         ge=0.1,
         le=1000,
+    )
+    measured: tuple[MeasuredRun, ...] = unit_field(
+        "list",
+        "Measurements that the page draws beside the simulated stiffness of their configurations, "
+        "each a mapping of the keys below: `[{file: axial.csv, thickness_um: 500, height_mm: "
+        "170}]`. The page alone depends on them.",
+        (),
+        max_length=50,
+        strict=False,
     )

@@ -105,18 +105,8 @@ FORMATS = Registry(
         ),
         "ccx": Format(
             "export.calculix_superelement:write",
-            "reduced model as a superelement, of ccx_stiffness and ccx_mass: CalculiX",
+            "reduced model as a superelement with damping: CalculiX",
             "superelement.inp",
-        ),
-        "ccx_stiffness": Format(
-            "export.calculix_superelement:write_stiffness",
-            "stiffness matrix of that superelement: CalculiX",
-            "superelement.stiff",
-        ),
-        "ccx_mass": Format(
-            "export.calculix_superelement:write_mass",
-            "mass matrix of that superelement: CalculiX",
-            "superelement.mass",
         ),
     },
 )

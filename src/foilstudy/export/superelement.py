@@ -1,8 +1,5 @@
-"""The reduced model as a superelement: which coordinate stands at which node, and the entries.
-
-Both codes read symmetric matrices as lines ``row node, its degree of freedom, column node, its
-degree of freedom, entry``, and numbers of at most 20 characters.
-"""
+"""The reduced model as a superelement: which coordinate stands at which node, and numbers of at
+most 20 characters, as both codes read no more."""
 
 from __future__ import annotations
 
@@ -14,7 +11,7 @@ import numpy as np
 from foilstudy.export.contents import Contents
 from foilstudy.measure.stiffness import fixed_stiffness
 
-__all__ = ["BOTTOM", "INNER", "TOP", "Place", "entries", "expected", "inner_places"]
+__all__ = ["BOTTOM", "INNER", "TOP", "Place", "entries", "expected", "inner_places", "number"]
 
 BOTTOM, TOP, INNER = 9001, 9002, 9011
 """Numbers of the nodes: centres of the rings, and the first of those that carry no motion but
@@ -39,12 +36,21 @@ def inner_places(count: int) -> list[Place]:
 
 
 def entries(matrix: np.ndarray, places: Sequence[Place]) -> Iterator[str]:
-    """The lower triangle of a symmetric matrix with its diagonal, zeros left out."""
+    """The lower triangle of a symmetric matrix with its diagonal, zeros left out.
+
+    As lines ``row node, its degree of freedom, column node, its degree of freedom, entry``.
+    """
     for i, row in enumerate(places):
         for j, column in enumerate(places[: i + 1]):
             value = float(matrix[i, j])
             if abs(value) > _LEAST:
-                yield f"{row.node}, {row.freedom}, {column.node}, {column.freedom}, {value:.13e}"
+                pair = f"{row.node}, {row.freedom}, {column.node}, {column.freedom}"
+                yield f"{pair}, {number(value)}"
+
+
+def number(value: float) -> str:
+    """14 digits."""
+    return f"{value:.13e}" if abs(value) > _LEAST else "0."
 
 
 def expected(contents: Contents) -> str:

@@ -13,8 +13,10 @@ import statsmodels.regression.linear_model
 import xarray
 
 import foilstudy.plot.render
+from foilstudy.config import StudyConfig
 from foilstudy.present.figures import draw_figures
 from foilstudy.present.files import StudyFiles
+from foilstudy.present.measured import measured_of
 from foilstudy.present.report import write_report
 from foilstudy.present.shown import note_origin, shown
 from foilstudy.present.statistics.tables import write_tables
@@ -31,8 +33,8 @@ def figure(name: str, results: Path, *crumples: Path) -> None:
     draw_figures([name], files, files.figures)
 
 
-def report(page: Path, *crumples: Path) -> None:
+def report(study: StudyConfig, page: Path, *crumples: Path) -> None:
     """The page of a study, beside its cube, and the manifest of all that is shown of it."""
-    files = StudyFiles(page.with_name("cube.nc"), crumples)
+    files = StudyFiles(page.with_name("cube.nc"), crumples, measured=measured_of(study))
     write_report(files, page)
     note_origin(files, shown(files))

@@ -11,7 +11,7 @@ from foilstudy.base.cube import CONTENT, verified_attributes
 from foilstudy.base.manifest import noted_origin, outdated
 from foilstudy.present.figures import FIGURES, FigureSpec, draw_figures
 from foilstudy.present.files import StudyFiles
-from foilstudy.present.measured import MeasuredFile
+from foilstudy.present.measured import MeasuredFile, noted_files
 from foilstudy.present.report import write_report
 from foilstudy.present.shown import note_origin
 from foilstudy.present.statistics.tables import write_tables
@@ -38,7 +38,7 @@ class Redrawn:
     left_out: list[str]
 
 
-def redraw(results: str | Path, measured: Sequence[MeasuredFile] = ()) -> Redrawn:
+def redraw(results: str | Path, measured: Sequence[MeasuredFile] | None = None) -> Redrawn:
     """Write the tables, figures and page of a study anew.
 
     Parameters
@@ -48,7 +48,8 @@ def redraw(results: str | Path, measured: Sequence[MeasuredFile] = ()) -> Redraw
         modes need the records of all its realisations, ``realisations/*/*/*/crumple.nc`` and
         ``response.nc`` beside them, those that the cube was gathered from.
     measured : sequence of MeasuredFile, optional
-        What was measured of its configurations, to stand beside them on the page.
+        What was measured of its configurations, to stand beside them on the page; those that the
+        page shows already, if left out.
 
     Raises
     ------
@@ -60,8 +61,10 @@ def redraw(results: str | Path, measured: Sequence[MeasuredFile] = ()) -> Redraw
     files = StudyFiles.found(results / "cube.nc" if results.is_dir() else results)
     if CONTENT in files.cube.attrs:  # from release 0.4 on
         verified_attributes(files.cube_path)
-    for each in measured:
+    for each in measured or ():
         each.beside(files.cube)  # refused before anything is written
+    if measured is None:
+        measured = noted_files(files.folder)
     drawn = [name for name, figure in FIGURES.items() if _can_be_drawn(figure, files)]
     missing = [name for name in FIGURES if name not in drawn]
     kept = {name: paths for name in missing if (paths := _of_this_cube(files, name))}

@@ -8,6 +8,7 @@ from pathlib import Path
 from foilstudy.base.manifest import write_manifest
 from foilstudy.present.figures import FIGURES
 from foilstudy.present.files import StudyFiles
+from foilstudy.present.measured import notes_of
 from foilstudy.present.statistics.tables import TABLES
 from foilstudy.study.sweep.origins import presented_origin
 
@@ -23,4 +24,5 @@ def shown(files: StudyFiles) -> list[Path]:
 
 def note_origin(files: StudyFiles, paths: Iterable[Path]) -> None:
     """Put down that these files were made of the cube as it is, by the code as it is."""
-    write_manifest(files.folder, presented_origin(files.cube.attrs), paths)
+    origin = presented_origin(files.cube.attrs)
+    write_manifest(files.folder, origin, paths, notes_of(files.measured))

@@ -11,7 +11,7 @@ import numpy as np
 from foilstudy.base.errors import Refusal
 from foilstudy.bench.recording import ACCELERATION, FORCE, Channel
 
-__all__ = ["Combination", "along", "frame_motion", "force_sum"]
+__all__ = ["Combination", "across", "along", "force_sum", "frame_motion"]
 
 MOTION, REACTION = 0, 1
 """Signals of `along`, in their order."""
@@ -132,6 +132,22 @@ def along(channels: Sequence[Channel], motion: int, gap_m: float) -> Combination
     above = frame_motion(channels, "metrology", upper)
     relative = lower.stacked(above).along(np.concatenate([rows, -rows], axis=1))
     return relative.stacked(force_sum(channels, "metrology", upper).along(rows))
+
+
+def across(channels: Sequence[Channel], gap_m: float) -> Combination:
+    """All six motions of the lower ring as the upper frame sees them, and all that it bears.
+
+    Lower minus upper, both about the centre of the lower ring, so that a common rigid motion is
+    none.
+
+    Returns
+    -------
+    Combination
+        Twelve signals: m and rad; N and N m about the centre of the upper ring.
+    """
+    lower, above = (frame_motion(channels, body, (0.0, 0.0, 0.0)) for body in ("base", "metrology"))
+    relative = lower.stacked(above).along(np.hstack([np.eye(6), -np.eye(6)]))
+    return relative.stacked(force_sum(channels, "metrology", (0.0, 0.0, gap_m)))
 
 
 def _array(

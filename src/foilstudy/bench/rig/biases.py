@@ -3,7 +3,7 @@ to the static stiffness that is read in the end."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,6 +13,7 @@ from foilstudy.bench.estimation.best_linear import best_linear, measured_lines
 from foilstudy.bench.estimation.estimate import Estimate
 from foilstudy.bench.estimation.periods import Periods
 from foilstudy.bench.estimation.procedure import Published
+from foilstudy.bench.estimation.several import TransferMatrix, interface_lines, transfer_matrix
 from foilstudy.bench.estimation.spectra import Blocks
 from foilstudy.bench.estimation.static import STATIC_BAND_HZ
 from foilstudy.bench.estimation.subtraction import without_bypass
@@ -22,6 +23,9 @@ from foilstudy.bench.rig.specimens.absent import Absent
 from foilstudy.bench.signals.multisine import Multisine
 
 __all__ = ["Bias", "Drive", "Faults", "biases"]
+
+_SIXES = 2
+"""Realisations with six runs each, which scatter little."""
 
 
 @dataclass(frozen=True)
@@ -50,14 +54,22 @@ class Drive:
     def __post_init__(self) -> None:
         require_count("number of realisations", self.realisations, 2)
 
-    def records(self, rig: Rig) -> list[tuple[Measurement, np.ndarray]]:
-        """A recording and the excited lines of each realisation."""
+    def records(
+        self, rig: Rig, realisations: int | None = None
+    ) -> list[tuple[Measurement, np.ndarray]]:
+        """A recording and the excited lines of each realisation, of all or so many."""
         found = []
-        for k in range(self.realisations):
+        for k in range(realisations or self.realisations):
             signal = Multisine(0.0, self.high_hz, self.rms, self.period_s, realisation=k).signal()
             seed = 2 * k + isinstance(rig.specimen, Absent)  # other noise in the empty rig
             found.append((measured(rig, signal, self.rate_hz, self.duration_s, seed), signal.lines))
         return found
+
+    def runs(self, rig: Rig) -> list[list[tuple[Measurement, np.ndarray]]]:
+        """With the shaker at each of `Shaker.around`; by realisation, then by place."""
+        places = (replace(rig, shaker=each) for each in rig.shaker.around())
+        by_place = [self.records(each, _SIXES) for each in places]
+        return [list(runs) for runs in zip(*by_place)]
 
 
 @dataclass(frozen=True)
@@ -162,7 +174,7 @@ def biases(
     faults: Faults = Faults(),
     band_hz: tuple[float, float] = STATIC_BAND_HZ,
 ) -> Iterator[Bias]:
-    """Each way of processing on the sound rig, and the two whole ones on each faulty rig.
+    """Each way of processing on the sound rig, and the three whole ones on each faulty rig.
 
     Parameters
     ----------
@@ -177,7 +189,16 @@ def biases(
     frequencies = np.arange(band_hz[0], band_hz[1] + step / 2, step)
     truth = float(np.abs(rig.truth(frequencies)).mean())
     ways = _ways(rig, drive)
-    sound = drive.records(rig)
+
+    def estimates(of: Rig, chosen: Iterable[str]) -> dict[str, list[Estimate]]:
+        records = drive.records(of)
+        found = {way: [ways[way](*record) for record in records] for way in chosen}
+        cut = Periods(drive.period_s)
+        found["six runs"] = [
+            _six_runs(runs, cut, rig.gap_m, band_hz[1]).along(rig.shaker.motion)
+            for runs in drive.runs(of)
+        ]
+        return found
 
     def bias(fault: str, way: str, estimates: list[Estimate]) -> Bias:
         inside = [each.within(*band_hz) for each in estimates]
@@ -187,16 +208,23 @@ def biases(
             fault, way, float(np.mean(values)), float(np.std(values, ddof=1)), truth, coherence
         )
 
-    for way, processed in ways.items():
-        yield bias("none", way, [processed(*record) for record in sound])
+    for way, found in estimates(rig, ways).items():
+        yield bias("none", way, found)
     for fault, faulty in faults.rigs(rig).items():
-        records, empty = drive.records(faulty), drive.records(faulty.emptied())
-        for way in ("published", "periods"):
-            with_it = [ways[way](*record) for record in records]
+        whole = "published", "periods"
+        empty = estimates(faulty.emptied(), whole)
+        for way, with_it in estimates(faulty, whole).items():
             yield bias(fault, way, with_it)
-            alone = [ways[way](*record) for record in empty]
-            taken_off = [without_bypass(*pair) for pair in zip(with_it, alone)]
+            taken_off = [without_bypass(*pair) for pair in zip(with_it, empty[way])]
             yield bias(fault, f"{way}, empty rig taken off", taken_off)
+
+
+def _six_runs(
+    runs: list[tuple[Measurement, np.ndarray]], cut: Periods, gap_m: float, highest_hz: float
+) -> TransferMatrix:
+    """Whole periods of runs with the shaker at six places."""
+    means = [interface_lines(run, cut, gap_m, highest_hz) for run, _ in runs]
+    return transfer_matrix(means, runs[0][1])
 
 
 def _ways(rig: Rig, drive: Drive) -> dict[str, _Processing]:

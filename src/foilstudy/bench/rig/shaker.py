@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
@@ -46,6 +47,16 @@ class Shaker:
         require_number("frequency of a shaker's mount", self.mount_hz, "Hz", above=0)
         require_number("loss factor of a shaker's mount", self.loss_factor, least=0)
         require_number("bypass of a shaker", self.bypass, "N/m", least=0)
+
+    def around(self, arm_m: float = 0.15) -> tuple[Self, ...]:
+        """Six places that leave no motion of the base open.
+
+        Along x, y and z where it stands; and so far off: upwards at two places, and across at one.
+        """
+        x, y, z = self.point
+        places = [(motion, (x, y, z)) for motion in range(3)]
+        places += [(2, (x + arm_m, y, z)), (2, (x, y + arm_m, z)), (0, (x, y + arm_m, z))]
+        return tuple(replace(self, motion=motion, point=point) for motion, point in places)
 
     def dynamic_stiffness(self, frequencies: np.ndarray) -> np.ndarray:
         """Of the reaction mass on its mount, shape (f,)."""

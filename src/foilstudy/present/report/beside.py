@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import xarray as xr
 
+from foilstudy.base.errors import Refusal
 from foilstudy.plot import style
 from foilstudy.present.measured import MeasuredFile, draw, findings, title_of
 
@@ -27,7 +28,7 @@ class Beside:
     rows : tuple of (str, str)
         What it shows: a word and what is said of it, the word empty where it goes on.
     picture : bytes
-        SVG.
+        SVG; empty where there is nothing to compare with.
     """
 
     name: str
@@ -42,15 +43,13 @@ class Beside:
 
 
 def measurements(cube: xr.Dataset, files: Sequence[MeasuredFile]) -> Iterator[Beside]:
-    """Compare and draw what was measured.
-
-    Raises
-    ------
-    Refusal
-        As `MeasuredFile.beside`.
-    """
+    """Compare and draw what was measured, or say why not."""
     for file in files:
-        comparison = file.beside(cube)
+        try:
+            comparison = file.beside(cube)
+        except Refusal as problem:
+            yield Beside(file.path.name, "not compared", (("", str(problem)),), b"")
+            continue
         title, picture = title_of(comparison), io.BytesIO()
         style.styled(draw(comparison, title).savefig)(
             picture, format="svg", metadata={"Date": None}

@@ -76,6 +76,26 @@ def sweep(case: Sweep, shapes: Mapping[Shape, Record]) -> dict:
     }
 
 
+def spread(case: Sweep, shapes: Mapping[Shape, Record]) -> dict:
+    """How far one crumple of several is linear, swept no further than that.
+
+    Returns
+    -------
+    dict
+        ``stiffness`` at rest (N/m), ``linear_amplitude`` of the secant (m; None beyond the sweep
+        or where it ended early), ``ended_early`` and ``message``.
+    """
+    plan = SweepPlan(AMPLITUDE_MM * 1e-3, stressed=case.prestressed, until=LINEAR_SHARE)
+    curve = ring_sweep(_crumple_of(case, shapes), case.motion, plan)
+    amplitude = curve.linear_amplitude()
+    return {
+        "stiffness": curve.stiffness,
+        "linear_amplitude": amplitude,
+        "ended_early": bool(np.isnan(amplitude)),
+        "message": curve.message,
+    }
+
+
 def _side(side: Side) -> dict:
     columns = ("motion", "force", "tangent", "energy", "released", "secant")
     return {name: getattr(side, name).tolist() for name in columns} | {"status": list(side.status)}

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import asdict
 
+import numpy as np
+
 from foilstudy.base.tables import markdown_table
 from foilstudy.measure.amplitude.curve import GOOD, LINEAR_SHARE
 from foilstudy.study.amplitude.plan import AMPLITUDE_MM
@@ -36,6 +38,51 @@ def linear(findings: Results) -> list[dict]:
         }
         for case, found in findings["sweeps"].items()
     ]
+
+
+def spreads(findings: Results) -> list[dict]:
+    """One row per crumple of those that are swept to a change of one per cent only."""
+    return [
+        asdict(case)
+        | {
+            "stiffness": found["stiffness"],
+            "linear_amplitude_mm": _mm(found["linear_amplitude"]),
+            "ended_early": found["ended_early"],
+            "message": found["message"],
+        }
+        for case, found in findings["spreads"].items()
+    ]
+
+
+def _medians(findings: Results) -> list[list]:
+    """One row per foil, state and motion: median over the seeds, smallest, largest.
+
+    What lies beyond the sweep counts as larger than all else. An amplitude that is not known, as
+    its sweep ended early, is left out and counted.
+    """
+    groups: dict[tuple, list[dict]] = {}
+    for case, found in findings["spreads"].items():
+        groups.setdefault((case.words, case.motion), []).append(found)
+    rows = []
+    for names, group in groups.items():
+        known = [each for each in group if not each["ended_early"]]
+        ways = [np.inf if (w := each["linear_amplitude"]) is None else 1e3 * w for each in known]
+        middle = np.median(ways) if ways else np.nan
+        ends = (min(ways), max(ways)) if ways else (np.nan, np.nan)
+        stiffnesses = [each["stiffness"] for each in group]
+        rows.append(
+            [
+                *names,
+                f"{np.median(stiffnesses):.4g}",
+                *map(_bounded, (middle, *ends)),
+                f"{len(known)} of {len(group)}",
+            ]
+        )
+    return rows
+
+
+def _bounded(millimetres: float) -> str:
+    return f"> {AMPLITUDE_MM:g}" if np.isinf(millimetres) else f"{millimetres:.2g}"
 
 
 def modes(findings: Results) -> list[dict]:
@@ -89,6 +136,11 @@ def page(findings: Results) -> str:
     return "\n".join(
         (
             markdown_table(heads, swept),
+            markdown_table(
+                ["foil", "motion", "stiffness, median, N/m", f"secant by {share}, median, mm",
+                 "smallest, mm", "largest, mm", "seeds"],
+                _medians(findings),
+            ),
             markdown_table(
                 ["foil", "seed", "mode", "Hz", "next mode", f"{share} of frequency at, mm", "it",
                  "error of condensation"],
