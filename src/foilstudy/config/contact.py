@@ -9,7 +9,7 @@ from pydantic import model_validator
 
 from foilstudy.base.errors import Refusal
 from foilstudy.model.contact import CONTACTS
-from foilstudy.model.contact.sizes import reach_on
+from foilstudy.model.contact.sizes import FRICTION_MAX, reach_on
 from foilstudy.model.patch import Patch
 
 from .choices import choice_of
@@ -48,11 +48,19 @@ class Contact(Section):
         "with `kind: barrier`.",
         False,
     )
+    friction: float = unit_field(
+        "1",
+        "Coefficient of Coulomb's friction where parts of the foil touch, and where it touches the "
+        "planes of the rings; only with `kind: barrier`.",
+        0.0,
+        ge=0,
+        le=FRICTION_MAX,
+    )
 
     @model_validator(mode="after")
     def _numbers_only_where_they_count(self) -> Contact:
         given = [key for key in ("reach_mm", "stiffness") if getattr(self, key) is not None]
-        given += ["ring_planes"] * self.ring_planes
+        given += [key for key in ("ring_planes", "friction") if getattr(self, key)]
         if given and self.kind == "none":
             raise ValueError(
                 f"contact.{given[0]} is given, but contact.kind is none; remove it, or set "

@@ -76,7 +76,7 @@ def contact_of(section: ContactSection) -> Contact:
     """What parts of the foil do that come near each other."""
     if section.kind == "none":
         return CONTACTS[section.kind]()
-    given: dict[str, Any] = {"ring_planes": section.ring_planes}
+    given: dict[str, Any] = {"ring_planes": section.ring_planes, "friction": section.friction}
     if section.reach_mm is not None:
         given["reach"] = section.reach_mm * 1e-3
     if section.stiffness is not None:

@@ -140,23 +140,24 @@ class Crumpled(Shape):
 
     def contacts(self) -> tuple[Touching, ...]:
         """The terms of contact, fresh; none where parts pass through each other."""
-        return self.method.contact.terms(self.stressed.section)
+        terms = self.method.contact.terms(self.stressed.section)
+        return tuple(term for term in terms if isinstance(term, Touching))
 
     def terms(self) -> tuple[Term, ...]:
-        """See `Shape`; contact comes last."""
-        return *super().terms(), *self.contacts()
+        """See `Shape`; contact comes last, and then its friction."""
+        return *super().terms(), *self.method.contact.terms(self.stressed.section)
 
     def problem(self) -> Problem:
         """The potential energy of the foil, at the state in which it has arrived."""
         problem = super().problem()
         if self.arrival and self.arrival.state:
-            # contact and what has let go since have no memory, and come last
+            # what has let go since has no memory, and comes last
             known = self.arrival.state[: len(problem.terms)]
             problem.state = *known, *problem.state[len(known) :]
         return self._rested(problem) if self.rest else problem
 
     def _remembered(self) -> Problem:
-        """Without contact, which remembers nothing and which a finer mesh may not carry."""
+        """Without contact, which a finer mesh may not carry."""
         problem = Problem(self.stressed, *super().terms())
         if self.arrival and self.arrival.state:
             problem.state = self.arrival.state[: len(problem.terms)]
@@ -204,11 +205,11 @@ class Crumpled(Shape):
             refined = replace(refined, rest=self.rest.refined())
         if not (self.arrival and self.arrival.state):
             return refined
-        return refined._remembering(self._remembered().split())
+        fresh = replace(refined, arrival=None)._remembered()
+        return refined._remembering(fresh, self._remembered().split())
 
-    def _remembering(self, values: Mapping[str, np.ndarray]) -> Self:
-        """At the state that arrays tell of, where a term has a memory that lasts."""
-        problem = replace(self, arrival=None)._remembered()
+    def _remembering(self, problem: Problem, values: Mapping[str, np.ndarray]) -> Self:
+        """At the state that arrays tell of, where a term of a fresh problem has a memory."""
         if not problem.has_memory:
             return self
         problem.restore(values)
@@ -359,7 +360,8 @@ class Crumpled(Shape):
         )  # fmt: skip
         element = recipe.mesh.element_at_work()
         crumpled = cls(foil, patch, points, reference, element, recipe, arrival)
-        return crumpled._remembering(values).waited(recipe.method.waiting)
+        fresh = replace(crumpled, arrival=None).problem()
+        return crumpled._remembering(fresh, values).waited(recipe.method.waiting)
 
 
 _RECIPE = {"mesh": Mesh, "imperfection": Imperfection, "method": Method}

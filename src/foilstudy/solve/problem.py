@@ -21,7 +21,7 @@ from foilstudy.model.patch import RING_ROWS, Patch
 from foilstudy.model.shell.held import held_blocks
 from foilstudy.model.shell.shell import Shell
 
-__all__ = ["Following", "Lasting", "Problem", "Telling", "Term"]
+__all__ = ["Following", "Lagging", "Lasting", "Problem", "Telling", "Term"]
 
 
 class Term(Protocol):
@@ -101,6 +101,18 @@ class Following(Term, Protocol):
 
     def spent(self, state: Any) -> float:
         """What the state has used up or holds back beside the energy of the term, J."""
+        ...
+
+
+@runtime_checkable
+class Lagging(Following, Protocol):
+    """One that follows within a step by what the shape last committed decides, as friction does.
+
+    Its `evolved` is what commits: it takes note of what the new shape decides.
+    """
+
+    def led(self, points: np.ndarray, state: Any) -> Any:
+        """State that a shape leads to within the step."""
         ...
 
 
@@ -185,8 +197,7 @@ class Problem:
     def followed(self, points: np.ndarray) -> tuple[Any, ...]:
         """The state that a shape leads to, nothing committed; held where no term follows."""
         return tuple(
-            term.evolved(points, state) if isinstance(term, Following) else state
-            for term, state in zip(self.terms, self.state, strict=True)
+            _led(term, points, state) for term, state in zip(self.terms, self.state, strict=True)
         )
 
     def spent(self, state: tuple[Any, ...]) -> float:
@@ -278,3 +289,9 @@ class Problem:
         if self._before is None:
             raise ValueError("there is nothing to roll back: no shape has been committed")
         self.state, self._before = self._before, None
+
+
+def _led(term: Term, points: np.ndarray, state: Any) -> Any:
+    if isinstance(term, Lagging):
+        return term.led(points, state)
+    return term.evolved(points, state) if isinstance(term, Following) else state

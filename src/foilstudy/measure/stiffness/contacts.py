@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 import scipy.sparse as sparse
@@ -29,6 +29,7 @@ CONTACT_SPRINGS = ("ignored", "normal", "rigid", "stuck")
 """What closed contacts may do in a small motion, see `ContactBracket`."""
 
 
+@runtime_checkable
 class Touching(Protocol):
     """A term of contact, by what is measured of it.
 

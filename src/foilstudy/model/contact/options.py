@@ -6,8 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from foilstudy.base.ranges import require_number
+from foilstudy.model.contact.friction import Friction
 from foilstudy.model.contact.planes import RingPlanes
-from foilstudy.model.contact.springs import STIFFNESS
+from foilstudy.model.contact.sizes import FRICTION_MAX
+from foilstudy.model.contact.springs import STIFFNESS, Springs
 from foilstudy.model.contact.term import SelfContact
 from foilstudy.model.shell.section import Section
 
@@ -26,17 +28,21 @@ class BarrierContact:
         softer one is entered more deeply, where it is stiffer.
     ring_planes : bool
         Whether the planes of the rings are barriers, too.
+    friction : float
+        Coefficient of Coulomb's friction of all of them.
     """
 
     kind = "barrier"
     reach: float | None = None
     stiffness: float = STIFFNESS
     ring_planes: bool = False
+    friction: float = 0.0
 
     def __post_init__(self):
         if self.reach is not None:
             require_number("reach of a contact", self.reach, "m", above=0)
         require_number("stiffness of a contact", self.stiffness, "", above=0)
+        require_number("friction of a contact", self.friction, "", least=0, most=FRICTION_MAX)
 
     def terms(self, section: Section) -> tuple[Any, ...]:
         """See `Contact`.
@@ -46,7 +52,9 @@ class BarrierContact:
         Refusal
             If thickness and reach are too large for the elements.
         """
-        sheet = SelfContact(section, self.reach, self.stiffness)
-        if not self.ring_planes:
-            return (sheet,)
-        return sheet, RingPlanes(section, self.reach, self.stiffness)
+        pressing: tuple[Springs, ...] = (SelfContact(section, self.reach, self.stiffness),)
+        if self.ring_planes:
+            pressing += (RingPlanes(section, self.reach, self.stiffness),)
+        if not self.friction:
+            return pressing
+        return *pressing, *(Friction(each, self.friction) for each in pressing)

@@ -69,6 +69,25 @@ def hessians(knots, pairs, edges, full, thickness, span, size):
 
 
 @njit(cache=True, error_model="numpy")
+def normal_forces(knots, pairs, edges, full, thickness, span, size):
+    """With which the sides of pairs repel each other, shape (active,), N."""
+    x, gradient = np.empty((4, 3)), np.empty((4, 3))
+    a, change, w = np.empty(4), np.empty((2, 4)), np.empty(3)
+    out = np.empty(len(pairs))
+    for p in range(len(pairs)):
+        for i in range(4):
+            for c in range(3):
+                x[i, c] = knots[pairs[p, i], c]
+        pair_energy(x, edges[p], full[p], thickness, span, a, change, w, gradient)
+        square = 0.0
+        for c in range(3):
+            one_side = gradient[0, c] + gradient[1, c] if edges[p] else gradient[0, c]
+            square += one_side * one_side
+        out[p] = size * np.sqrt(square)
+    return out
+
+
+@njit(cache=True, error_model="numpy")
 def springs(knots, pairs, edges, thickness, span, size):
     """Pairs as springs between their closest points.
 

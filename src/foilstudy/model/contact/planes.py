@@ -16,6 +16,7 @@ from foilstudy.base.errors import Refusal
 from foilstudy.model.contact.barrier import add_half_square, barrier
 from foilstudy.model.contact.sizes import reach_on
 from foilstudy.model.contact.springs import STIFFNESS, Springs
+from foilstudy.model.contact.stencils import Pressing, of_points
 from foilstudy.model.contact.surface import triangulation
 from foilstudy.model.shell.section import Section
 
@@ -40,7 +41,7 @@ class RingPlanes(Springs):
         E t/(1 - nu^2), N/m.
     """
 
-    energy_names = ("ring_plane",)
+    energy_names, name = ("ring_plane",), "ring_plane"
 
     def __init__(self, section: Section, reach: float | None = None, stiffness: float = STIFFNESS):
         material, patch = section.law.material, section.patch
@@ -121,6 +122,12 @@ class RingPlanes(Springs):
     def springs(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """See `Springs`."""
         return _springs(self._knots, self._closed, self.half, self._span, self._size)
+
+    def pressing(self) -> Pressing:
+        """See `Springs`."""
+        _, weights, direction = self.springs()
+        force = _normal_forces(self._knots, self._closed, self.half, self._span, self._size)
+        return of_points(self._closed, weights, direction, force)
 
     def _closed_knots(self) -> np.ndarray:
         return self._closed
@@ -238,6 +245,18 @@ def _exert(knots, closed, half, span, size, forces):
             for c in range(3):
                 forces[closed[p, i], c] += size * slope * 2.0 / span * a[i] * w[c]
     return total
+
+
+@njit(cache=True, error_model="numpy")
+def _normal_forces(knots, closed, half, span, size):
+    """With which planes repel knots, shape (closed,), N."""
+    a, change, w = np.empty(4), np.empty((2, 4)), np.empty(3)
+    out = np.empty(len(closed))
+    for p in range(len(closed)):
+        square = _closest(knots[closed[p]], a, change, w)
+        _, slope, _ = barrier((square - half * half) / span)
+        out[p] = -size * slope * 2.0 / span * np.sqrt(square)
+    return out
 
 
 @njit(cache=True, error_model="numpy")

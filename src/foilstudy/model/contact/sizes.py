@@ -1,14 +1,16 @@
-"""How far a barrier reaches on a mesh, and whether the mesh can carry it."""
+"""Bounds of a contact: how far a barrier reaches on a mesh, and whether the mesh can carry it."""
 
 from __future__ import annotations
 
 from foilstudy.base.errors import Refusal
 from foilstudy.model.patch import Patch
 
-__all__ = ["REACH_MOST", "reach_on", "skin_on"]
+__all__ = ["FRICTION_MAX", "REACH_MOST", "reach_on", "skin_on"]
 
 REACH_MOST = 1e-3
 """Of a reach that is left out, m."""
+FRICTION_MAX = 2.0
+"""Coefficient beyond which sheets interlock or are glued, and do not slide."""
 _REACH_SHARE = 0.25
 """The same relative to the smaller side of an element."""
 _FOLLOWED, _NEAR_MOST, _REACH_MOST = 0.6, 0.55, 0.4

@@ -6,6 +6,7 @@ import numpy as np
 import scipy.sparse as sparse
 from numba import njit
 
+from foilstudy.model.contact.stencils import Pressing
 from foilstudy.model.contact.surface import Triangulation
 from foilstudy.model.patch import RING_ROWS
 
@@ -30,12 +31,21 @@ class Springs:
     def __init__(self, surface: Triangulation, membrane_stiffness: float):
         self._surface, self.membrane_stiffness = surface, membrane_stiffness
 
+    @property
+    def surface(self) -> Triangulation:
+        """That touches."""
+        return self._surface
+
     def knots(self) -> np.ndarray:
         """The last shape with a finite energy, shape (count, 3), m."""
         raise NotImplementedError
 
     def springs(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Stiffness, weights and direction of what is closed in that shape."""
+        raise NotImplementedError
+
+    def pressing(self) -> Pressing:
+        """What is closed in that shape, and how hard it is pressed."""
         raise NotImplementedError
 
     def _closed_knots(self) -> np.ndarray:
@@ -59,6 +69,10 @@ class Springs:
         if not self._reached(points):
             raise ValueError("a sheet has no contacts in a shape that passes through something")
         return len(self._closed_knots())
+
+    def pressing_at(self, points: np.ndarray) -> Pressing | None:
+        """What is closed in a shape; None where the energy is infinite."""
+        return self.pressing() if self._reached(points) else None
 
     def free_way(self, free: np.ndarray) -> bool:
         """Whether a motion of the control points between the rings meets nothing, for sure."""
@@ -117,12 +131,13 @@ class Springs:
         return self.on_points(closed, np.einsum("p,pki,pkj->pij", size, stretch, stretch))
 
     def on_points(self, knots: np.ndarray, blocks: np.ndarray) -> sparse.csr_matrix:
-        """Matrix on the control points, from one on each set of four knots."""
+        """Matrix on the control points, from one on each set of knots."""
         spread = self._surface.spread()
         if not len(knots):
             return sparse.csr_matrix((spread.shape[1], spread.shape[1]))
-        index = (3 * knots[:, :, None] + np.arange(3)).reshape(-1, 12)
-        row, column = np.repeat(index, 12, axis=1), np.tile(index, (1, 12))
+        size = 3 * knots.shape[1]
+        index = (3 * knots[:, :, None] + np.arange(3)).reshape(-1, size)
+        row, column = np.repeat(index, size, axis=1), np.tile(index, (1, size))
         entries = blocks.ravel(), (row.ravel(), column.ravel())
         matrix = sparse.coo_matrix(entries, (spread.shape[0], spread.shape[0])).tocsr()
         return (spread.T @ matrix @ spread).tocsr()

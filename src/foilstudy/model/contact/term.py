@@ -13,10 +13,12 @@ from foilstudy.model.contact.followed import FollowedPairs
 from foilstudy.model.contact.pairs import (
     exert,
     hessians,
+    normal_forces,
     springs,
 )
 from foilstudy.model.contact.sizes import reach_on, skin_on
 from foilstudy.model.contact.springs import STIFFNESS, Springs
+from foilstudy.model.contact.stencils import Pressing, with_edges
 from foilstudy.model.contact.surface import (
     largest_control_deviation,
     largest_motion,
@@ -83,7 +85,7 @@ class SelfContact(Springs):
         If thickness and reach are too large for the elements.
     """
 
-    energy_names = ("contact",)
+    energy_names, name = ("contact",), "contact"
 
     def __init__(self, section: Section, reach: float | None = None, stiffness: float = STIFFNESS):
         material = section.law.material
@@ -269,3 +271,12 @@ class SelfContact(Springs):
         return springs(
             self._followed.knots, closed.pairs, closed.edges, self.thickness, self._span, self._size
         )
+
+    def pressing(self) -> Pressing:
+        """See `Springs`."""
+        closed, knots = self.closed(), self._followed.knots
+        force = normal_forces(
+            knots, closed.pairs, closed.edges, closed.full, self.thickness, self._span, self._size
+        )
+        _, weights, direction = self.springs()
+        return with_edges(self._surface, closed.pairs, closed.edges, weights, direction, force)

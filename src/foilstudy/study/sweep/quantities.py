@@ -207,6 +207,18 @@ QUANTITIES: dict[str, Declared] = {
         cube_scale=1e6,
         only="touching",
     ),
+    "contact_friction_work": Declared(
+        "J", "work used up by friction of the foil on itself", only="rubbing"
+    ),
+    "contact_friction_slipping_share": Declared(
+        "1", "share of its contacts with itself that stand at the limit of sticking", only="rubbing"
+    ),
+    "ring_plane_friction_work": Declared(
+        "J", "work used up by friction on the planes of the rings", only="rubbing"
+    ),
+    "ring_plane_friction_slipping_share": Declared(
+        "1", "share of the contacts with these that stand at the limit", only="rubbing"
+    ),
     "contact_shortened_steps": Declared(
         "1", "steps shortened lest parts of the foil cross", only="touching"
     ),
@@ -263,6 +275,14 @@ QUANTITIES: dict[str, Declared] = {
         "plastic strains 11, 22, 2 12 of the layers in Cartesian axes, and the accumulated one",
         ("element_row", "layer", "plastic_component", "element_column"),
     ),
+    **{
+        f"{name}_friction_contacts": _record_only(
+            "m, N, 1",
+            "of contacts: knots, sides, weights, direction, normal force, spring, arms",
+            (f"{name}_friction_contact", "friction_value"),
+        )
+        for name in ("contact", "ring_plane")
+    },
     "history_step": _record_only("1", "pseudo-time step", _HISTORY),
     "history_height": _record_only("m", "height between the rings", _HISTORY),
     "history_reaction_force": _record_only(

@@ -9,8 +9,8 @@ stay those of one mass, as the damping has to see.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Protocol, runtime_checkable
+from collections.abc import Callable, Sequence
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -58,10 +58,26 @@ class Impassable(Term, Protocol):
         ...
 
 
+@runtime_checkable
+class Sticking(Term, Protocol):
+    """A term that holds parts of a sheet on each other by springs, which its state knows."""
+
+    def stick_forces(self, free: np.ndarray, state: Any) -> np.ndarray:
+        """Forces of these in a small motion of the control points between the rings."""
+        ...
+
+
 def minding_contact(mass: Mass, problem: Problem) -> Mass:
     """A mass of a shell, with what contact makes of it where the problem has any."""
     contacts = [term for term in problem.terms if isinstance(term, Impassable)]
-    return TouchingMass(mass, contacts) if contacts else mass
+    if not contacts:
+        return mass
+    sticking = [k for k, term in enumerate(problem.terms) if isinstance(term, Sticking)]
+
+    def sticks(free: np.ndarray) -> list[np.ndarray]:
+        return [problem.terms[k].stick_forces(free, problem.state[k]) for k in sticking]
+
+    return TouchingMass(mass, contacts, sticks)
 
 
 class TouchingMass:
@@ -74,6 +90,8 @@ class TouchingMass:
     shell : Mass
     contacts : sequence of Impassable
         On the same knots.
+    sticks : callable, optional
+        Forces of what sticks, a term each, in a motion of the control points between the rings.
 
     Attributes
     ----------
@@ -83,8 +101,13 @@ class TouchingMass:
         Steps that were shortened.
     """
 
-    def __init__(self, shell: Mass, contacts: Sequence[Impassable]):
-        self._shell, self._contacts = shell, tuple(contacts)
+    def __init__(
+        self,
+        shell: Mass,
+        contacts: Sequence[Impassable],
+        sticks: Callable[[np.ndarray], list[np.ndarray]] = lambda _: [],
+    ):
+        self._shell, self._contacts, self._sticks = shell, tuple(contacts), sticks
         self._probe: np.ndarray | None = None
         self._since, self._factor = 0, 1.0
         self._knots: np.ndarray | None = None
@@ -162,7 +185,9 @@ class TouchingMass:
             rounds = _ITERATIONS
         largest = 0.0
         for _ in range(rounds):
-            force = sum(each.spring_forces(self._probe) for each in self._contacts)
+            probe = self._probe
+            force = sum([each.spring_forces(probe) for each in self._contacts])
+            force = sum(self._sticks(probe), start=force)
             response = self._shell.velocity(force).copy()
             size = np.sum(response * force)  # f M^-1 f = x K M^-1 K x
             if not size > 0:
