@@ -37,7 +37,7 @@ from foilstudy.measure.dynamics.reductions.craig_bampton import CraigBampton
 from foilstudy.measure.dynamics.reductions.guyan import Guyan
 from foilstudy.measure.dynamics.reductions.hintz_herting import HintzHerting
 from foilstudy.measure.dynamics.reductions.rational_krylov import RationalKrylov
-from foilstudy.measure.dynamics.structure import INTERFACE, bordered
+from foilstudy.measure.dynamics.structure import INTERFACE, bordered, terms_of_sheet
 from foilstudy.measure.stiffness import InterfaceSystem, fixed_stiffness
 from foilstudy.measure.stiffness.rings import interface_rigid_modes
 from foilstudy.model.foil import Foil
@@ -260,6 +260,20 @@ def test_a_sheet_held_by_something_else_is_refused(structure):
     )
     with pytest.raises(ValueError, match="held by something else than its rings"):
         Structure.assembled(grounded, structure.mass, structure.rigid_motions)
+
+
+def test_rounding_counts_against_all_terms_of_the_sheet(structure):
+    """Which are those of one matrix of rings and interior, with a term of low rank or without."""
+    rng = np.random.default_rng(3)
+    system, motions = structure.stiffness, structure.rigid_motions
+    inner = structure.static.constraint_modes @ motions
+    spring = rng.normal(size=(len(inner), 2)), rng.normal(size=(INTERFACE, 2)), np.array([2.0, 3.0])
+    whole = np.abs(np.vstack([inner, motions]))
+    plain = np.sum(whole * (abs(bordered(system)) @ whole), axis=0)
+    assert terms_of_sheet(system, inner, motions) == pytest.approx(plain, rel=1e-12)
+    more = np.abs(spring[0].T) @ np.abs(inner)
+    held = terms_of_sheet(system.updated(*spring), inner, motions)
+    assert (held > plain).all() and (held > spring[2] @ more**2).all()
 
 
 # --- what every reduction keeps ------------------------------------------------------------------

@@ -1,5 +1,7 @@
 """A dozen foils drawn from all that a configuration may hold, extreme corners included.
 
+The last is 0.27 um thin on elements of 64 mm, where rounding holds its rings a little.
+
 `benchmarks/random_configurations.py` draws as many as one likes.
 """
 
@@ -18,7 +20,7 @@ def _script():
     return module
 
 
-@pytest.mark.parametrize("seed", range(100, 112))
+@pytest.mark.parametrize("seed", [*range(100, 111), 354])
 def test_a_random_foil_is_crumpled_and_measured_or_says_why_not(seed, tmp_path):
     script = _script()
     result = script.outcome(script.drawn(seed), tmp_path)
