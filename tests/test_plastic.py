@@ -20,8 +20,9 @@ from foilstudy.model.shell.elements import sampling
 from foilstudy.model.shell.elements.corner import Corner
 from foilstudy.model.shell.elements.mean_strains import SampledMeanStrains
 from foilstudy.model.shell.elements.one_point import OnePoint
-from foilstudy.model.shell.material.plastic import LAYERS, Plastic, layer_heights
-from foilstudy.model.shell.material.return_map import Flow, evolve, increment
+from foilstudy.model.shell.material.layers import Layers
+from foilstudy.model.shell.material.plastic import LAYERS, Plastic, PlasticTerm, layer_heights
+from foilstudy.model.shell.material.return_map import Flow, increment
 from foilstudy.model.shell.section import Section
 from foilstudy.model.shell.shell import Shell
 from foilstudy.pipeline.crumple import crumple
@@ -120,16 +121,16 @@ class WidePlate:
         self.flow = Flow(1.0, nu, limit, 0.0, 0.0)
         self.first = 2 * (2 * limit / np.sqrt(3)) * (1 - nu**2) / thickness
         self.heights = layer_heights(LAYERS, thickness)
-        self.frame = np.array([1.0, 0, 1, 0, 0, 1, thickness]).reshape(1, 7, 1)
-        self.state = np.zeros((1, LAYERS, 4, 1))
+        frame = np.array([1.0, 0, 1, 0, 0, 1, thickness]).reshape(1, 7, 1)
+        self.state = Layers(frame, self.heights, self.flow).untouched()
+        self.seen, self.room = np.zeros((1, 6, 1)), np.full((1, 1), -np.inf)
 
     def moment(self, ratio):
         """Over the elastic limit moment, at a curvature over that of the elastic limit."""
-        strain, inelastic = np.zeros((1, 6, 1)), np.empty((1, 6, 1))
-        before, self.state = self.state, np.empty_like(self.state)
+        strain = np.zeros((1, 6, 1))
         strain[0, 3] = ratio * self.first
-        evolve(strain, self.frame, self.heights, self.flow, before, self.state, inelastic)
-        k1, k2 = (strain - inelastic)[0, 3:5, 0]
+        self.state = self.state.foil.flowed(strain, self.state, self.seen, self.room)
+        k1, k2 = (strain - self.state.strains)[0, 3:5, 0]
         return (k1 + self.flow.poisson_ratio * k2) / self.first
 
 
@@ -153,9 +154,9 @@ def test_a_bent_strip_springs_back_by_its_moment(ratio):
     plate = WidePlate()
     for each in np.linspace(0.0, ratio, 200):
         plate.moment(each)
-    bent = plate.state.copy()
+    bent = plate.state.layers
     assert abs(plate.moment(ratio - exact_moment(ratio))) < 0.025
-    assert np.array_equal(plate.state, bent)
+    assert np.array_equal(plate.state.layers, bent)
 
 
 # --- the term ------------------------------------------------------------------------------------
@@ -211,10 +212,64 @@ def test_vectorised_mean_strains_are_the_general_ones(make, around):
     general = SampledMeanStrains(shell.section, sampled)
     strains = general.strains(points)
     np.testing.assert_allclose(fast.strains(points), strains, rtol=0, atol=1e-12 * strains.max())
-    force, expected = np.empty_like(points), np.empty_like(points)
-    work = fast.force(points, state.inelastic, force)
-    assert work == pytest.approx(general.force(points, state.inelastic, expected), rel=1e-12)
-    np.testing.assert_allclose(force, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("around", [5, 9, 131])
+@either_element
+@either_patch
+def test_shell_and_term_in_one_are_the_two(element, make, around):
+    """From state to state, back again, and to the same bits where nothing has yielded."""
+    shell, term = plastic_sheet(make, element, around=around)
+    points = np.ascontiguousarray(wild_shape(shell))
+    bent = shell.reference.copy()
+    bent[:, 3:] = points[:, 3:]  # a part of it yields, then all
+    few = term.evolved(bent, term.start())
+    states = [few, term.evolved(points, few), few, term.start()]
+    assert 0 < term.yielded_share(few) < 1 == term.yielded_share(states[1])
+    together, elastic, share = (np.empty_like(points) for _ in "123")
+    for state in states:
+        energies = term.force_with_shell(points, together, state)
+        apart = *shell.force(points, elastic), *term.force(points, share, state)
+        np.testing.assert_allclose(energies, apart, rtol=1e-12, atol=1e-13 * sum(apart[:3]))
+        error = np.abs(together - elastic - share).max()
+        assert error < 1e-13 * np.abs(elastic).max()
+    assert np.array_equal(together, elastic) and tuple(energies) == apart
+
+
+def test_layers_that_are_not_looked_at_would_not_have_flowed():
+    """Along a way of small steps: as by looking at all layers in every one."""
+    shell, term = plastic_sheet(wild_sheet, Corner())
+    watched, rng = PlasticTerm(shell, term.law), np.random.default_rng(3)
+    state = other = term.start()
+    points = shell.reference
+    looked = 0
+    for step in range(300):
+        way = rng.standard_normal(points.shape)
+        points = points + 2e-4 * shell.patch.size_around * way
+        room = None if term._looked is None else term._looked[2].copy()
+        state = term.evolved(points, state)
+        looked += 1.0 if room is None else np.mean(term._looked[2] != room)
+        # a state of another foil: nothing is known of it, so that all is looked at
+        other = watched.evolved(points, watched.restored({"plastic_strain": other.layers}))
+        assert np.array_equal(other.layers, state.layers), step
+    assert term.yielded_share(state) > 0.3
+    assert looked < 0.7 * 300
+
+
+def test_states_stay_what_they_were_however_many_follow():
+    """More states than there is room for at first, some of them kept."""
+    shell, term = plastic_sheet(wild_sheet, Corner())
+    rng, state, kept = np.random.default_rng(0), term.start(), []
+    state = term.restored(term.recorded(term.evolved(wild_shape(shell, seed=99), state)))
+    for step in range(60):
+        points = wild_shape(shell, seed=step)
+        state = term.evolved(points, state)
+        if step % 7 == 0:
+            kept.append((state, state.layers, points))
+    for state, layers, points in rng.permutation(np.array(kept, dtype=object)):
+        assert np.array_equal(state.layers, layers)
+        assert np.array_equal(term.evolved(points, state).layers, layers)
+    assert len(state.foil.values) < 60 * state.slots.size
 
 
 @either_element

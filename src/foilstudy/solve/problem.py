@@ -21,7 +21,7 @@ from foilstudy.model.patch import RING_ROWS, Patch
 from foilstudy.model.shell.held import held_blocks
 from foilstudy.model.shell.shell import Shell
 
-__all__ = ["Following", "Lagging", "Lasting", "Problem", "Telling", "Term"]
+__all__ = ["Following", "Joint", "Lagging", "Lasting", "Problem", "Telling", "Term"]
 
 
 class Term(Protocol):
@@ -116,6 +116,26 @@ class Lagging(Following, Protocol):
         ...
 
 
+@runtime_checkable
+class Joint(Term, Protocol):
+    """A term of a shell that is evaluated together with it at less cost than by itself.
+
+    Attributes
+    ----------
+    shell : Shell
+    """
+
+    shell: Shell
+
+    def gradient_with_shell(self, points: np.ndarray, out: np.ndarray, state: Any) -> None:
+        """Write the force of both, N."""
+        ...
+
+    def force_with_shell(self, points: np.ndarray, out: np.ndarray, state: Any) -> np.ndarray:
+        """The same; return the energies, those of the shell first, J."""
+        ...
+
+
 class Problem:
     """A shell and what acts on it.
 
@@ -180,15 +200,38 @@ class Problem:
         state : tuple, optional
             Another one than that last committed.
         """
-        first, *rest = zip(self.terms, self.state if state is None else state, strict=True)
-        energies = first[0].force(points, out, first[1])
+        states = self.state if state is None else state
+        joint, rest = self._split(states)
+        if joint:
+            energies = joint.force_with_shell(points, out, states[1])
+        else:
+            energies = self.shell.force(points, out, states[0])
         if not rest:
             return energies
         parts, share = [energies], np.empty_like(out)
-        for term, state in rest:
-            parts.append(term.force(points, share, state))
+        for term, own in rest:
+            parts.append(term.force(points, share, own))
             out += share
         return np.concatenate(parts)
+
+    def gradient(self, points: np.ndarray, out: np.ndarray) -> None:
+        """The same bits without the energies, which cost a little."""
+        joint, rest = self._split(self.state)
+        if joint is None:
+            self.force(points, out)
+            return
+        joint.gradient_with_shell(points, out, self.state[1])
+        share = np.empty_like(out) if rest else out
+        for term, own in rest:
+            term.force(points, share, own)
+            out += share
+
+    def _split(self, states: tuple[Any, ...]) -> tuple[Joint | None, list[tuple[Term, Any]]]:
+        """What is evaluated together with the shell, if anything is, and the other terms."""
+        rest = list(zip(self.terms[1:], states[1:], strict=True))
+        if rest and isinstance(rest[0][0], Joint) and rest[0][0].shell is self.shell:
+            return rest[0][0], rest[1:]
+        return None, rest
 
     def value(self, points: np.ndarray) -> float:
         """Potential energy, J."""

@@ -50,10 +50,9 @@ class FlowedShell:
         return self._left()[1]
 
     def _left(self) -> tuple[float, np.ndarray]:
-        force, relief = np.empty_like(self._points), np.empty_like(self._points)
-        energy = self._shell.force(self._points, force).sum()
-        energy += self._term.force(self._points, relief, self._state).sum()
-        return float(energy), force + relief
+        force = np.empty_like(self._points)
+        energies = self._term.force_with_shell(self._points, force, self._state)
+        return float(energies.sum()), force
 
     def tangent(self) -> sparse.csr_matrix:
         """See `Relieved`."""

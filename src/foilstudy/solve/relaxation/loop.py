@@ -225,9 +225,13 @@ def relax(
     status, step, failure, halt = "not_converged", 0, None, None
     last_step = ramp.steps + rule.relaxation_steps_max
     while True:
-        energies = problem.force(points, force)
+        checked = step % rule.check_interval == 0 or step == last_step
+        if checked:
+            energies = problem.force(points, force)
+        else:
+            problem.gradient(points, force)
         work_rate = _product(velocity, force, RING_ROWS) - work_before
-        if step % rule.check_interval == 0 or step == last_step:
+        if checked:
             entry = recorder.record(step, force, energies, 0.5 * momentum_norm)
             finite = np.isfinite(energies.sum() + entry.kinetic_energy)
             if not finite or np.isnan(entry.residual):
@@ -251,6 +255,7 @@ def relax(
             if halt is not None:
                 velocity, norm = _return(motion, momentum, force, halt), 0.0
         except SolveError as error:
+            energies = problem.force(points, force)
             recorder.record(step, force, energies, 0.5 * momentum_norm)
             status, failure = "diverged", str(error)
             break

@@ -8,6 +8,7 @@ import numpy as np
 
 from foilstudy.model.shell.elements import corner_kernel
 from foilstudy.model.shell.elements.corner_data import pack
+from foilstudy.model.shell.elements.corner_relief import CornerRelief
 from foilstudy.model.shell.elements.mean_strains import CornerMeanStrains
 from foilstudy.model.shell.elements.sampled import SampledKernel
 from foilstudy.model.shell.elements.sampling import corner
@@ -44,6 +45,10 @@ class Corner:
     def mean_strains(self, section: Section) -> CornerMeanStrains:
         return CornerMeanStrains(section, corner(self.share(section)))
 
+    def relief(self, section: Section) -> CornerRelief:
+        """What inelastic strains of some elements make of the force."""
+        return self.kernel(section).relief()
+
 
 class CornerKernel(SampledKernel):
     """The tangent of the general kernel, the force of the vectorised one."""
@@ -60,3 +65,7 @@ class CornerKernel(SampledKernel):
             points, self._section.patch.elements_around, self._data, self._spacings, self._bend,
             out,
         )  # fmt: skip
+
+    def relief(self) -> CornerRelief:
+        """The same kernel for elements some of which have inelastic strains."""
+        return CornerRelief(self._data, self._section, self._bend)

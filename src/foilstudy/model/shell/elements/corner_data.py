@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from typing import NamedTuple, Self
+
 import numpy as np
 
 from foilstudy.model.shell.elements.corner_kernel import LANES, STEPS, VALUES
@@ -23,7 +26,6 @@ def pack(samples: np.ndarray, law: np.ndarray, periodic: bool, share: float) -> 
         Of the membrane stiffness in the control of the checkerboard.
     """
     n_along, n_around, _ = samples.shape
-    piece = -(-n_around // LANES)
     lines, line_law = _lines(samples, law, periodic)
     vertex = np.concatenate(
         [lines[:, 0:3], lines[-1:, 3:6]]
@@ -32,15 +34,10 @@ def pack(samples: np.ndarray, law: np.ndarray, periodic: bool, share: float) -> 
     around = np.concatenate([samples[:, :, 14], samples[-1:, :, 15]])
     around_law = 0.5 * share * _on_both_sides(law[:, 1])
     bending = np.concatenate([samples[:, :, 16:20].transpose(0, 2, 1), law], axis=1)
-    vertices = lines.shape[2]
-    packed = np.zeros((-(-piece // STEPS), n_along + 1, VALUES, STEPS + 1, LANES))
-    for chunk, start in enumerate(range(0, piece, STEPS)):
-        steps = min(STEPS, piece - start)
-        place = np.arange(LANES) * piece + start + np.arange(steps + 1)[:, None]
-        at = place % n_around if periodic else np.minimum(place, n_around)
-        owned = place < vertices
-        owned[-1] &= place[-1] == LANES * piece
-        to = packed[chunk, :, :, : steps + 1]
+    chunks = list(_chunks(n_around, periodic))
+    packed = np.zeros((len(chunks), n_along + 1, VALUES, STEPS + 1, LANES))
+    for chunk, (place, at, owned) in enumerate(chunks):
+        to = packed[chunk, :, :, : len(place)]
         to[:, 0:3] = vertex[:, :, at]
         to[:, 3:9] = vertex_law[:, :, at] * owned
         to[:-1, 11] = lines[:, 6, at]
@@ -53,20 +50,79 @@ def pack(samples: np.ndarray, law: np.ndarray, periodic: bool, share: float) -> 
     return packed.ravel()
 
 
+def vertex_laws(law: np.ndarray, periodic: bool) -> np.ndarray:
+    """Of all vertices, shape (elements_along + 1, 6, lines): a quarter of each element there."""
+    return _on_both_sides(_line_laws(law, periodic))
+
+
+class VertexPlaces(NamedTuple):
+    """Where the values of a line of vertices, and of what begins there, are in what is packed.
+
+    Attributes
+    ----------
+    owned : ndarray of int, shape (lines,)
+        Where its law is, and that of the elements that begin there.
+    all, starts : ndarray of int
+        All places of the first line, of the second one, and so on; where those of each begin.
+    row : int
+        From one row to the next.
+    """
+
+    owned: np.ndarray
+    all: np.ndarray
+    starts: np.ndarray
+    row: int
+
+    @classmethod
+    def of(cls, n_around: int, n_along: int, periodic: bool) -> Self:
+        """Of a patch."""
+        row = VALUES * (STEPS + 1) * LANES
+        lines, places, owned = [], [], []
+        for chunk, (place, at, own) in enumerate(_chunks(n_around, periodic)):
+            inside = np.arange(place.size).reshape(place.shape)
+            lines.append(at.ravel())
+            places.append((chunk * (n_along + 1) * row + inside).ravel())
+            owned.append(own.ravel())
+        line, to = np.concatenate(lines), np.concatenate(places)
+        owns = np.concatenate(owned)
+        order = np.argsort(line, kind="stable")
+        starts = np.concatenate([[0], np.cumsum(np.bincount(line))])
+        own = np.empty(len(starts) - 1, dtype=np.int64)
+        own[line[owns]] = to[owns]
+        return cls(own, to[order], starts, row)
+
+
+def _chunks(n_around: int, periodic: bool) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+    """Of every chunk the places, (steps + 1, lanes), their lines and which own what is there."""
+    piece = -(-n_around // LANES)
+    lines = n_around if periodic else n_around + 1
+    for start in range(0, piece, STEPS):
+        steps = min(STEPS, piece - start)
+        place = np.arange(LANES) * piece + start + np.arange(steps + 1)[:, None]
+        at = place % n_around if periodic else np.minimum(place, n_around)
+        owned = place < lines
+        owned[-1] &= place[-1] == LANES * piece
+        yield place, at, owned
+
+
 def _lines(samples: np.ndarray, law: np.ndarray, periodic: bool) -> tuple[np.ndarray, np.ndarray]:
     """Samples and law of the lines along of every element row, (elements_along, values, lines).
 
     Metric at the lower and the upper vertex and 11 between; the law is a quarter of each neighbour.
     """
     lines = samples[:, :, [0, 1, 2, 6, 7, 8, 12]]
+    if not periodic:
+        lines = np.concatenate([lines, samples[:, -1:, [3, 4, 5, 9, 10, 11, 13]]], axis=1)
+    return lines.transpose(0, 2, 1), _line_laws(law, periodic)
+
+
+def _line_laws(law: np.ndarray, periodic: bool) -> np.ndarray:
     line_law = 0.25 * law
     if periodic:
-        line_law = line_law + 0.25 * np.roll(law, 1, axis=2)
-    else:
-        lines = np.concatenate([lines, samples[:, -1:, [3, 4, 5, 9, 10, 11, 13]]], axis=1)
-        line_law = np.pad(line_law, ((0, 0), (0, 0), (0, 1)))
-        line_law[:, :, 1:] += 0.25 * law
-    return lines.transpose(0, 2, 1), line_law
+        return line_law + 0.25 * np.roll(law, 1, axis=2)
+    line_law = np.pad(line_law, ((0, 0), (0, 0), (0, 1)))
+    line_law[:, :, 1:] += 0.25 * law
+    return line_law
 
 
 def _on_both_sides(of_rows: np.ndarray) -> np.ndarray:

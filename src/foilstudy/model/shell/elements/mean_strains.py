@@ -120,7 +120,7 @@ class SampledMeanStrains:
 
 
 class CornerMeanStrains(SampledMeanStrains):
-    """The same of `sampling.corner`, vectorised but for the tangent."""
+    """The same of `sampling.corner`, with vectorised strains."""
 
     def __init__(self, section: Section, sampling: StrainSampling):
         super().__init__(section, sampling)
@@ -136,20 +136,6 @@ class CornerMeanStrains(SampledMeanStrains):
         around = self._section.patch.elements_around
         mean_kernel.strains(self._unrolled(points), around, self._spacings, self._rest, out)
         return out
-
-    def force(self, points: np.ndarray, inelastic: Inelastic, out: np.ndarray) -> float:
-        """See `SampledMeanStrains`."""
-        section = self._section
-        around = section.patch.elements_around
-        unrolled = self._unrolled(points)
-        total = np.zeros_like(unrolled)
-        work = mean_kernel.force(
-            unrolled, around, self._spacings, self._rest, inelastic.stresses, total
-        )
-        if section.patch.periodic:
-            total[..., : mean_kernel.PAD] += total[..., -mean_kernel.PAD :]
-        np.negative(total[..., : out.shape[2]], out=out)
-        return -work
 
     def _unrolled(self, points: np.ndarray) -> np.ndarray:
         """Control points with the first columns again behind the last, on a closed patch."""

@@ -40,6 +40,9 @@ class OnePoint:
     def mean_strains(self, section: Section) -> SampledMeanStrains:
         return SampledMeanStrains(section, one_point(self.stabilisation))
 
+    def relief(self, section: Section) -> None:
+        """Its force knows none; the stresses taken off are a force of their own."""
+
 
 class _Kernel:
     def __init__(self, section: Section, stabilisation: float):

@@ -45,6 +45,26 @@ class MeanStrains(Protocol):
         ...
 
 
+class Relief(Protocol):
+    """A kernel that follows the inelastic strains of elements; see `corner_relief`."""
+
+    def update(self, elements: np.ndarray, strains: np.ndarray) -> None:
+        """Take the inelastic strains, shape (number, 6), of some elements."""
+        ...
+
+    def force(self, points: np.ndarray, out: np.ndarray) -> np.ndarray:
+        """As in `ElementKernel`, of what is elastic of the strains."""
+        ...
+
+    def work(self, strains: np.ndarray) -> tuple[float, float]:
+        """Of the stresses taken off, on membrane and on bending strains, J."""
+        ...
+
+    def spare(self) -> tuple[float, float]:
+        """Membrane and bending energy that the inelastic strains alone would have, J."""
+        ...
+
+
 class Element(Protocol):
     """Where an element samples its strains."""
 
@@ -56,4 +76,8 @@ class Element(Protocol):
 
     def mean_strains(self, section: Section) -> MeanStrains:
         """What a law with a memory sees of it."""
+        ...
+
+    def relief(self, section: Section) -> Relief | None:
+        """The kernel of a section some elements of which have inelastic strains, if it has one."""
         ...

@@ -34,6 +34,9 @@ class Sampled:
     def mean_strains(self, section: Section) -> SampledMeanStrains:
         return SampledMeanStrains(section, self.sampling)
 
+    def relief(self, section: Section) -> None:
+        """Its force knows none; the stresses taken off are a force of their own."""
+
 
 class SampledKernel:
     """Energy, force and tangent of one section with a strain sampling."""

@@ -18,7 +18,8 @@ import scipy.sparse as sparse
 from foilstudy.base.errors import Refusal
 from foilstudy.model.shell.elements.mean_strains import Inelastic
 from foilstudy.model.shell.material.elastic import Elastic
-from foilstudy.model.shell.material.return_map import Flow, cartesian_frame, evolve
+from foilstudy.model.shell.material.layers import Layers, PlasticState, differing
+from foilstudy.model.shell.material.return_map import Flow, cartesian_frame
 from foilstudy.model.shell.tangent import block_matrix
 
 LAYERS = 8
@@ -93,34 +94,6 @@ class Plastic(Elastic):
         return (PlasticTerm(shell, self),)
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class PlasticState:
-    """What plasticity has left in a foil.
-
-    Attributes
-    ----------
-    layers : ndarray, shape (elements_along, layers, 4, elements_around)
-        Plastic strains 11, 22, 2 12 in Cartesian axes, the first along the first coordinate of the
-        element, and the accumulated one, which never falls.
-    inelastic : Inelastic
-        Their mean and curvature, and the stresses these take off.
-    energy : float
-        Elastic energy that the plastic strains alone would have, J.
-    """
-
-    layers: np.ndarray
-    inelastic: Inelastic
-    energy: float
-
-    def __repr__(self) -> str:
-        return f"<PlasticState: up to {self.accumulated.max():.3g}>"
-
-    @property
-    def accumulated(self) -> np.ndarray:
-        """Accumulated plastic strain, shape (elements_along, layers, elements_around)."""
-        return self.layers[:, :, 3]
-
-
 class PlasticTerm:
     """The share of the energy that plastic strains take off an elastic shell.
 
@@ -136,9 +109,14 @@ class PlasticTerm:
     energy_names = ("plastic_relief",)
 
     def __init__(self, shell: Any, law: Plastic):
-        self.law, self._section = law, shell.section
+        self.law, self.shell, self._section = law, shell, shell.section
         self._strains = shell.element.mean_strains(shell.section)
+        self._relief = shell.element.relief(shell.section)
         self.heights = layer_heights(law.layers, self._section.thickness)
+        # the last state, and strains and room before yield when its elements were looked at; the
+        # state that the relief is of
+        self._looked: tuple[PlasticState, np.ndarray, np.ndarray] | None = None
+        self._relieved: PlasticState | None = None
 
     @cached_property
     def _frame(self) -> np.ndarray:
@@ -147,9 +125,10 @@ class PlasticTerm:
 
     def start(self) -> PlasticState:
         """No plastic strain."""
-        along, _, around = self._section.stiffness.shape
-        none = np.zeros((along, 6, around))
-        return PlasticState(np.zeros((along, self.law.layers, 4, around)), Inelastic(none, none), 0)
+        return self._layers().untouched()
+
+    def _layers(self) -> Layers:
+        return Layers(self._frame, self.heights, self.law.flow)
 
     def numbers(self, state: PlasticState) -> dict[str, float]:
         """See `solve.problem.Lasting`: what has yielded takes the place of what would have."""
@@ -170,13 +149,50 @@ class PlasticTerm:
 
     def restored(self, values: Mapping[str, np.ndarray]) -> PlasticState:
         """See `solve.problem.Lasting`."""
-        rigid = self.law.flow._replace(yield_stress=np.inf)
-        layers = np.ascontiguousarray(values["plastic_strain"])
-        return self._flowed(np.zeros_like(self._section.stiffness), layers, rigid)
+        return self._layers().filled(np.asarray(values["plastic_strain"]))
 
     def force(self, points: np.ndarray, out: np.ndarray, state: PlasticState) -> np.ndarray:
         """See `solve.problem.Term`."""
-        return np.array([self._strains.force(points, state.inelastic, out) + state.energy])
+        work = self._strains.force(points, self._inelastic(state), out)
+        return np.array([work + state.energy])
+
+    def gradient_with_shell(self, points: np.ndarray, out: np.ndarray, state: PlasticState) -> None:
+        """See `solve.problem.Joint`."""
+        if self._relief is None:
+            self.force_with_shell(points, out, state)
+        else:
+            self._elastic_force(points, out, state)
+
+    def force_with_shell(
+        self, points: np.ndarray, out: np.ndarray, state: PlasticState
+    ) -> np.ndarray:
+        """See `solve.problem.Joint`."""
+        if self._relief is None:
+            energies, share = self.shell.force(points, out), np.empty_like(out)
+            own = self.force(points, share, state)
+            out += share
+            return np.concatenate([energies, own])
+        elastic = self._elastic_force(points, out, state)
+        membrane, bending = self._relief.work(self._strains.strains(points))
+        spare = self._relief.spare()
+        return np.array(
+            [
+                elastic[0] + (membrane - spare[0]),
+                elastic[1] + (bending - spare[1]),
+                elastic[2],
+                state.energy - (membrane + bending),
+            ]
+        )
+
+    def _elastic_force(
+        self, points: np.ndarray, out: np.ndarray, state: PlasticState
+    ) -> np.ndarray:
+        """Write the force of what is elastic of the strains; its energies."""
+        stale = differing(state, self._relieved)
+        if len(stale):
+            self._relief.update(stale, state.strains_of(stale))
+        self._relieved = state
+        return self._relief.force(points, out)
 
     def tangent(self, points: np.ndarray, state: PlasticState) -> sparse.csr_matrix:
         """See `solve.problem.Term`: at fixed plastic strains."""
@@ -184,16 +200,21 @@ class PlasticTerm:
 
     def tangent_blocks(self, points: np.ndarray, state: PlasticState) -> np.ndarray:
         """The same by control point and neighbour, as `Shell.tangent_blocks`."""
-        return self._strains.tangent_blocks(points, state.inelastic)
+        return self._strains.tangent_blocks(points, self._inelastic(state))
+
+    def _inelastic(self, state: PlasticState) -> Inelastic:
+        return Inelastic.of(self._section, state.strains)
 
     def evolved(self, points: np.ndarray, state: PlasticState) -> PlasticState:
         """See `solve.problem.Term`: every layer back on its yield surface."""
-        return self._flowed(self._strains.strains(points), state.layers, self.law.flow)
-
-    def _flowed(self, strains: np.ndarray, before: np.ndarray, flow: Flow) -> PlasticState:
-        layers, inelastic = np.empty_like(before), np.empty_like(strains)
-        energy = evolve(strains, self._frame, self.heights, flow, before, layers, inelastic)
-        return PlasticState(layers, Inelastic.of(self._section, inelastic), energy)
+        strains = self._strains.strains(points)
+        if self._looked is None:
+            self._looked = None, np.zeros_like(strains), np.empty(state.slots.shape)
+        last, seen, room = self._looked
+        room.ravel()[differing(state, last)] = -np.inf  # to be looked at
+        after = state.foil.flowed(strains, state, seen, room)
+        self._looked = after, seen, room
+        return after
 
     def stresses(self, points: np.ndarray, state: PlasticState) -> np.ndarray:
         """Cartesian stresses 11, 22, 12 of the layers, Pa.
@@ -215,16 +236,11 @@ class PlasticTerm:
 
     def spent(self, state: PlasticState) -> float:
         """See `solve.problem.Following`: dissipated, or kept by the kinematic hardening, J."""
-        p1, p2, p6 = state.layers[:, :, :3].transpose(2, 0, 1, 3)
-        square = (p1 * p1 + p2 * p2 + p1 * p2 + 0.25 * p6 * p6).mean(axis=1)
-        kept = 2 / 3 * self.law.flow.kinematic * np.sum(self._frame[:, 6] * square)
-        return self.dissipated(state) + float(kept)
+        return state.dissipated + state.kept
 
     def dissipated(self, state: PlasticState) -> float:
         """Work that plastic flow has used up, J: all but what kinematic hardening keeps."""
-        flow, done = self.law.flow, state.accumulated
-        density = (flow.yield_stress * done + 0.5 * flow.isotropic * done**2).mean(axis=1)
-        return float(np.sum(self._frame[:, 6] * density))
+        return state.dissipated
 
     def plastic_share(self, state: PlasticState) -> float:
         """Share of the volume that has yielded."""

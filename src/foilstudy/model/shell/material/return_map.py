@@ -15,6 +15,8 @@ from numba import njit
 
 _ROUNDING = 1e-12
 """Relative; what has returned to the yield surface does not flow for less."""
+_LAST = 1e-6
+"""Of the multiplier: after a step of Newton's method that is less, the next would be rounding."""
 
 
 class Flow(NamedTuple):
@@ -50,33 +52,42 @@ def _trial(e1, e2, e6, p1, p2, p6, flow):
 
 
 @njit(cache=True, error_model="numpy", forceinline=True)
-def _excess(u, v, w, done, flow):
-    """By how much the square of the von Mises stress is beyond that of the flow stress."""
-    limit = flow[2] + flow[3] * done
-    return 0.25 * u * u + 0.75 * v * v + 3.0 * w * w - (1.0 + _ROUNDING) * limit * limit
+def _square(u, v, w):
+    """Of the von Mises stress."""
+    return 0.25 * u * u + 0.75 * v * v + 3.0 * w * w
 
 
 @njit(cache=True, error_model="numpy", forceinline=True)
-def _flowed(u, v, w, done, flow):
-    """Plastic strain increments (11, 22, 2 12) and that of the accumulated one, beyond yield."""
-    modulus, nu, limit, isotropic, kinematic = flow
+def _excess(square, limit):
+    """By how much the square of the von Mises stress is beyond that of the flow stress."""
+    return square - (1.0 + _ROUNDING) * limit * limit
+
+
+@njit(cache=True, error_model="numpy", forceinline=True)
+def _newton(u, v, w, limit, g, flow):
+    """Newton's step of the multiplier."""
+    modulus, nu, _, isotropic, kinematic = flow
     back = kinematic * (2.0 / 3.0)
     a, b = modulus / (3.0 * (1.0 - nu)) + back, modulus / (1.0 + nu) + back
-    in_sum, apart = u * u / 12.0, 0.25 * v * v + w * w
-    target = np.sqrt(3.0) / (limit + isotropic * done)
+    target = np.sqrt(3.0) / limit
     slope = isotropic * (2.0 / 3.0) * target
-    g, step = 0.0, np.inf
-    while step > _ROUNDING * g:
-        x, y = 1.0 / (1.0 + a * g), 1.0 / (1.0 + b * g)
-        mean, deviation = in_sum * x * x, apart * y * y
-        total = mean + deviation
-        root = 1.0 / np.sqrt(total)
-        rise = root * (mean * a * x + deviation * b * y) / total + slope
-        step = (target - slope * g - root) / rise
-        g += step
+    x, y = 1.0 / (1.0 + a * g), 1.0 / (1.0 + b * g)
+    mean, deviation = u * u / 12.0 * x * x, (0.25 * v * v + w * w) * y * y
+    total = mean + deviation
+    root = 1.0 / np.sqrt(total)
+    rise = root * (mean * a * x + deviation * b * y) / total + slope
+    return (target - slope * g - root) / rise
+
+
+@njit(cache=True, error_model="numpy", forceinline=True)
+def _flowed(u, v, w, g, flow):
+    """Plastic strain increments (11, 22, 2 12) and that of the accumulated one, by multiplier."""
+    modulus, nu, _, _, kinematic = flow
+    back = kinematic * (2.0 / 3.0)
+    a, b = modulus / (3.0 * (1.0 - nu)) + back, modulus / (1.0 + nu) + back
     x, y = 1.0 / (1.0 + a * g), 1.0 / (1.0 + b * g)
     along, across = g * u * x / 6.0, 0.5 * g * v * y
-    equivalent = np.sqrt(3.0 * (in_sum * x * x + apart * y * y))
+    equivalent = np.sqrt(0.25 * u * u * x * x + 3.0 * (0.25 * v * v + w * w) * y * y)
     return along + across, along - across, 2.0 * g * w * y, (2.0 / 3.0) * g * equivalent
 
 
@@ -93,89 +104,151 @@ def increment(strain, plastic, done, flow):
     flow : Flow
     """
     u, v, w = _trial(*strain, *plastic, flow)
-    if not _excess(u, v, w, done, flow) > 0.0:
+    limit = flow[2] + flow[3] * done
+    if not _excess(_square(u, v, w), limit) > 0.0:
         return 0.0, 0.0, 0.0, 0.0
-    return _flowed(u, v, w, done, flow)
-
-
-_W = 128
-"""Elements at a time."""
-# Rows of the work array, of constant distance, by which the compiler sees that they do not overlap.
-_STRAIN, _BENT, _PLASTIC, _DONE = 0, 3, 6, 9
-_MEAN, _CURVED, _ENERGY, _VOLUME = 10, 13, 16, 17
-_FRAME, _EXCESS = 18, 24
-_ROWS = 25
-
-
-@njit(cache=True, error_model="numpy")
-def _turn(w, to, n):
-    """Three strains into Cartesian axes, where they stand."""
-    for k in range(n):
-        e1, e2, e6 = w[to * _W + k], w[(to + 1) * _W + k], w[(to + 2) * _W + k]
-        w[to * _W + k] = w[_FRAME * _W + k] * e1
-        w[(to + 1) * _W + k] = (
-            w[(_FRAME + 1) * _W + k] * e1
-            + w[(_FRAME + 2) * _W + k] * e2
-            + w[(_FRAME + 3) * _W + k] * e6
-        )
-        w[(to + 2) * _W + k] = w[(_FRAME + 4) * _W + k] * e1 + w[(_FRAME + 5) * _W + k] * e6
-
-
-@njit(cache=True, error_model="numpy")
-def _turn_back(w, at, n):
-    for k in range(n):
-        c1 = w[at * _W + k] / w[_FRAME * _W + k]
-        c6 = (w[(at + 2) * _W + k] - w[(_FRAME + 4) * _W + k] * c1) / w[(_FRAME + 5) * _W + k]
-        c2 = w[(at + 1) * _W + k]
-        c2 -= w[(_FRAME + 1) * _W + k] * c1 + w[(_FRAME + 3) * _W + k] * c6
-        w[at * _W + k] = c1
-        w[(at + 1) * _W + k] = c2 / w[(_FRAME + 2) * _W + k]
-        w[(at + 2) * _W + k] = c6
+    g, step = 0.0, np.inf
+    while step > _LAST * g:
+        step = _newton(u, v, w, limit, g, flow)
+        g += step
+    return _flowed(u, v, w, g, flow)
 
 
 @njit(cache=True, error_model="numpy", forceinline=True)
-def _trial_at(w, k, z, flow):
-    return _trial(
-        w[_STRAIN * _W + k] + z * w[_BENT * _W + k],
-        w[(_STRAIN + 1) * _W + k] + z * w[(_BENT + 1) * _W + k],
-        w[(_STRAIN + 2) * _W + k] + z * w[(_BENT + 2) * _W + k],
-        w[_PLASTIC * _W + k],
-        w[(_PLASTIC + 1) * _W + k],
-        w[(_PLASTIC + 2) * _W + k],
-        flow,
+def _turned(frame, j, k, e1, e2, e6):
+    """Three strains of an element in Cartesian axes."""
+    return (
+        frame[j, 0, k] * e1,
+        frame[j, 1, k] * e1 + frame[j, 2, k] * e2 + frame[j, 3, k] * e6,
+        frame[j, 4, k] * e1 + frame[j, 5, k] * e6,
     )
 
 
-@njit(cache=True, error_model="numpy")
-def _layer(w, n, z, mean, bent, flow):
-    """Bring one layer of the elements up to date, and count it in."""
-    for k in range(n):
-        u, v, s = _trial_at(w, k, z, flow)
-        w[_EXCESS * _W + k] = _excess(u, v, s, w[_DONE * _W + k], flow)
-    for k in range(n):  # few flow at a time
-        if w[_EXCESS * _W + k] > 0.0:
-            u, v, s = _trial_at(w, k, z, flow)
-            d1, d2, d6, more = _flowed(u, v, s, w[_DONE * _W + k], flow)
-            w[_PLASTIC * _W + k] += d1
-            w[(_PLASTIC + 1) * _W + k] += d2
-            w[(_PLASTIC + 2) * _W + k] += d6
-            w[_DONE * _W + k] += more
-    sums, shear = 0.25 * mean * flow[0] / (1.0 - flow[1]), 0.25 * mean * flow[0] / (1.0 + flow[1])
-    for k in range(n):
-        p1, p2, p6 = w[_PLASTIC * _W + k], w[(_PLASTIC + 1) * _W + k], w[(_PLASTIC + 2) * _W + k]
-        w[_MEAN * _W + k] += mean * p1
-        w[(_MEAN + 1) * _W + k] += mean * p2
-        w[(_MEAN + 2) * _W + k] += mean * p6
-        w[_CURVED * _W + k] += bent * p1
-        w[(_CURVED + 1) * _W + k] += bent * p2
-        w[(_CURVED + 2) * _W + k] += bent * p6
-        density = sums * (p1 + p2) * (p1 + p2) + shear * ((p1 - p2) * (p1 - p2) + p6 * p6)
-        w[_ENERGY * _W + k] += w[_VOLUME * _W + k] * density
+@njit(cache=True, error_model="numpy", forceinline=True)
+def _turned_back(frame, j, k, e1, e2, e6):
+    c1 = e1 / frame[j, 0, k]
+    c6 = (e6 - frame[j, 4, k] * c1) / frame[j, 5, k]
+    return c1, (e2 - frame[j, 1, k] * c1 - frame[j, 3, k] * c6) / frame[j, 2, k], c6
 
 
 @njit(cache=True, error_model="numpy")
-def evolve(strain, frame, layers, flow, before, after, inelastic):
-    """Plastic strains of all layers once mean strains have been reached.
+def _moved(strain, seen, frame, room, j, farthest, flow, over):
+    """By how much elements of a row have come nearer to yield than they have room for, squared.
+
+    The von Mises stress of what strains have changed by is convex over the thickness, so that no
+    layer has come nearer by more than the larger one of the outermost two.
+    """
+    sums, shear = flow[0] / (1.0 - flow[1]), flow[0] / (1.0 + flow[1])
+    for k in range(over.size):
+        m1, m2, m6 = _turned(
+            frame, j, k,
+            strain[j, 0, k] - seen[j, 0, k],
+            strain[j, 1, k] - seen[j, 1, k],
+            strain[j, 2, k] - seen[j, 2, k],
+        )  # fmt: skip
+        b1, b2, b6 = _turned(
+            frame, j, k,
+            strain[j, 3, k] - seen[j, 3, k],
+            strain[j, 4, k] - seen[j, 4, k],
+            strain[j, 5, k] - seen[j, 5, k],
+        )  # fmt: skip
+        mu, mv, mw = sums * (m1 + m2), shear * (m1 - m2), 0.5 * shear * m6
+        bu, bv = farthest * sums * (b1 + b2), farthest * shear * (b1 - b2)
+        bw = farthest * 0.5 * shear * b6
+        even = 0.25 * (mu * mu + bu * bu) + 0.75 * (mv * mv + bv * bv) + 3.0 * (mw * mw + bw * bw)
+        odd = 0.5 * mu * bu + 1.5 * mv * bv + 6.0 * mw * bw
+        over[k] = even + abs(odd) - room[j, k] * abs(room[j, k])
+
+
+LAYERS_MAX = _W = 512
+"""Of an element, and as many flow at a time."""
+# Rows of work arrays, of constant distance, by which the compiler sees that they do not overlap: of
+# the layers of one element, and of those that flow.
+_EXCESS, _LEFT = 3, 4
+_LIMIT, _MULTIPLIER, _STEP, _FLOWING = 3, 4, 5, 6
+
+
+@njit(cache=True, error_model="numpy")
+def _excesses(layers, mean, bent, heights, flow, trial):
+    """Trial stress, excess beyond yield and room before it of the layers of one element."""
+    p1, p2, p6, done = layers[0], layers[1], layers[2], layers[3]
+    for n in range(heights.size):
+        z = heights[n]
+        u, v, w = _trial(
+            mean[0] + z * bent[0], mean[1] + z * bent[1], mean[2] + z * bent[2],
+            p1[n], p2[n], p6[n], flow,
+        )  # fmt: skip
+        limit, square = flow[2] + flow[3] * done[n], _square(u, v, w)
+        trial[n], trial[_W + n], trial[2 * _W + n] = u, v, w
+        trial[_EXCESS * _W + n] = _excess(square, limit)
+        trial[_LEFT * _W + n] = limit - np.sqrt(square)
+
+
+@njit(cache=True, error_model="numpy")
+def _flow(layers, f, where, count, flow):
+    """Let layers flow, all at once."""
+    for n in range(count):
+        f[_MULTIPLIER * _W + n], f[_STEP * _W + n] = 0.0, np.inf
+    left = count
+    while left > 0:
+        for n in range(count):
+            g = f[_MULTIPLIER * _W + n]
+            step = _newton(
+                f[n], f[_W + n], f[2 * _W + n], f[_LIMIT * _W + n], g, flow
+            )  # fmt: skip
+            # what has come to its end stays there, whatever flows beside it
+            step = step if f[_STEP * _W + n] > _LAST * g else 0.0
+            f[_MULTIPLIER * _W + n], f[_STEP * _W + n] = g + step, step
+        left = 0
+        for n in range(count):
+            left += f[_STEP * _W + n] > _LAST * f[_MULTIPLIER * _W + n]
+    for n in range(count):
+        d1, d2, d6, more = _flowed(f[n], f[_W + n], f[2 * _W + n], f[_MULTIPLIER * _W + n], flow)
+        f[n], f[_W + n], f[2 * _W + n], f[_LIMIT * _W + n] = d1, d2, d6, more
+    for n in range(count):
+        slot, layer = where[0, n], where[1, n]
+        for part in range(4):
+            layers[slot, part, layer] += f[part * _W + n]
+
+
+@njit(cache=True, error_model="numpy")
+def _sum_all(layers, where, count, heights, frame, flow, sums):
+    for n in range(count):
+        j, k, slot = where[2, n], where[3, n], where[4, n]
+        _sum_up(layers[slot], heights, frame, j, k, flow, sums[slot])
+
+
+@njit(cache=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz"})
+def _sum_up(layers, heights, frame, j, k, flow, sums):
+    """What the layers of an element add up to, see `layers.Layers`."""
+    p1, p2, p6, done = layers[0], layers[1], layers[2], layers[3]
+    square, kinematic = 0.0, flow[4]
+    a = b = c = d = e = f = elastic = used = kept = 0.0
+    first, second = 0.25 * flow[0] / (1.0 - flow[1]), 0.25 * flow[0] / (1.0 + flow[1])
+    for n in range(heights.size):
+        z = heights[n]
+        square += z * z
+        a, b, c = a + p1[n], b + p2[n], c + p6[n]
+        d, e, f = d + z * p1[n], e + z * p2[n], f + z * p6[n]
+        total, apart = p1[n] + p2[n], p1[n] - p2[n]
+        elastic += first * total * total + second * (apart * apart + p6[n] * p6[n])
+        used += done[n] * (flow[2] + 0.5 * flow[3] * done[n])
+        kept += 0.75 * total * total + 0.25 * (apart * apart + p6[n] * p6[n])
+    one = 1.0 / heights.size
+    sums[0], sums[1], sums[2] = _turned_back(frame, j, k, one * a, one * b, one * c)
+    sums[3], sums[4], sums[5] = _turned_back(frame, j, k, d / square, e / square, f / square)
+    share = one * frame[j, 6, k]
+    sums[6], sums[7] = share * elastic, share * used
+    sums[8] = share * (2.0 / 3.0) * kinematic * kept
+
+
+@njit(cache=True, error_model="numpy")
+def flow_on(strain, frame, heights, flow, layers, sums, seen, room, slots, free, changed):
+    """Bring the layers of all elements up to date once mean strains have been reached.
+
+    Layers are looked at only where strains have changed, since they were looked at last, by as much
+    as the element then had room for before any layer yields; there they are where they would
+    be had all been looked at.
 
     Parameters
     ----------
@@ -183,51 +256,80 @@ def evolve(strain, frame, layers, flow, before, after, inelastic):
         e_11, e_22, 2 e_12 and k_11, k_22, 2 k_12 in the coordinates of the elements.
     frame : ndarray, shape (elements_along, 7, elements_around)
         See `cartesian_frame`; the last one is the volume of an element, m3.
-    layers : ndarray, shape (layers,)
-        Heights above the middle surface, m; all count alike.
+    heights : ndarray, shape (layers,)
+        Above the middle surface, m; all count alike.
     flow : Flow
-    before, after : ndarray, shape (elements_along, layers, 4, elements_around)
-        Plastic strains 11, 22, 2 12 in Cartesian axes, and the accumulated one.
-    inelastic : ndarray, shape of strain
-        Receives the mean of the plastic strains and their curvature, in the element's coordinates.
+    layers, sums : ndarray
+        See `layers.Layers`; what flows is written into free slots.
+    seen : ndarray, shape of strain
+        Strains that were looked at last.
+    room : ndarray, shape (elements_along, elements_around)
+        How much the von Mises stress could rise then in any layer, Pa; negative where the element
+        has to be looked at.
+    slots : ndarray of int, shape (elements_along, elements_around)
+        Of the elements; overwritten where one flows.
+    free : ndarray of int
+        Free slots, as many as elements at least.
+    changed : ndarray of int, shape (elements,)
+        Receives the elements that have flowed, row times elements around plus column.
 
     Returns
     -------
-    float
-        Elastic energy that the plastic strains alone would have, J.
+    int
+        How many free slots were used.
     """
-    number = layers.size
-    mean, square = 1.0 / number, np.sum(layers * layers)
-    w = np.empty(_ROWS * _W)
-    energy = 0.0
+    number, used, waiting, elements = heights.size, 0, 0, 0
+    farthest = np.abs(heights).max()
+    trial, over = np.empty(5 * _W), np.empty(strain.shape[2])
+    flowing, where = np.empty(_FLOWING * _W), np.empty((5, _W), dtype=np.int64)
     for j in range(strain.shape[0]):
-        for start in range(0, strain.shape[2], _W):
-            n = min(_W, strain.shape[2] - start)
-            stop = start + n
+        _moved(strain, seen, frame, room, j, farthest, flow, over)
+        for k in range(over.size):
+            if over[k] < 0.0:  # what is not a number is looked at
+                continue
             for part in range(6):
-                w[part * _W : part * _W + n] = strain[j, part, start:stop]
-                w[(_FRAME + part) * _W : (_FRAME + part) * _W + n] = frame[j, part, start:stop]
-            w[_VOLUME * _W : _VOLUME * _W + n] = frame[j, 6, start:stop]
-            _turn(w, _STRAIN, n)
-            _turn(w, _BENT, n)
-            w[_MEAN * _W : (_ENERGY + 1) * _W] = 0.0
-            for layer in range(number):
-                z = layers[layer]
-                for part in range(4):
-                    at = (_PLASTIC + part) * _W
-                    w[at : at + n] = before[j, layer, part, start:stop]
-                _layer(w, n, z, mean, z / square, flow)
-                for part in range(4):
-                    at = (_PLASTIC + part) * _W
-                    after[j, layer, part, start:stop] = w[at : at + n]
-            _turn_back(w, _MEAN, n)
-            _turn_back(w, _CURVED, n)
-            for part in range(6):
-                at = (_MEAN + part) * _W
-                inelastic[j, part, start:stop] = w[at : at + n]
-            for k in range(n):
-                energy += w[_ENERGY * _W + k]
-    return energy
+                seen[j, part, k] = strain[j, part, k]
+            mean = _turned(frame, j, k, strain[j, 0, k], strain[j, 1, k], strain[j, 2, k])
+            bent = _turned(frame, j, k, strain[j, 3, k], strain[j, 4, k], strain[j, 5, k])
+            slot = slots[j, k]
+            _excesses(layers[slot], mean, bent, heights, flow, trial)
+            least, first = np.inf, waiting
+            for n in range(number):
+                if trial[_EXCESS * _W + n] > 0.0:
+                    for part in range(3):
+                        flowing[part * _W + waiting] = trial[part * _W + n]
+                    flowing[_LIMIT * _W + waiting] = flow[2] + flow[3] * layers[slot, 3, n]
+                    where[0, waiting], where[1, waiting] = free[used], n
+                    waiting += 1
+                if not trial[_LEFT * _W + n] >= least:
+                    least = trial[_LEFT * _W + n]
+            room[j, k] = least
+            if waiting == first:
+                continue
+            room[j, k] = 0.0
+            layers[free[used]] = layers[slot]
+            slots[j, k] = free[used]
+            changed[used] = j * over.size + k
+            where[2, elements], where[3, elements], where[4, elements] = j, k, free[used]
+            used += 1
+            elements += 1
+            if waiting + number > _W:
+                _flow(layers, flowing, where, waiting, flow)
+                _sum_all(layers, where, elements, heights, frame, flow, sums)
+                waiting = elements = 0
+    _flow(layers, flowing, where, waiting, flow)
+    _sum_all(layers, where, elements, heights, frame, flow, sums)
+    return used
+
+
+@njit(cache=True, error_model="numpy")
+def sum_up(layers, slots, heights, frame, flow, sums):
+    """Write what the layers in the slots of all elements that have yielded add up to."""
+    for j in range(slots.shape[0]):
+        for k in range(slots.shape[1]):
+            if slots[j, k] > 0:
+                slot = slots[j, k]
+                _sum_up(layers[slot], heights, frame, j, k, flow, sums[slot])
 
 
 def cartesian_frame(forms: np.ndarray) -> np.ndarray:

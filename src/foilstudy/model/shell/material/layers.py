@@ -1,0 +1,187 @@
+"""The layers of a foil that have yielded: many states share what they have in common.
+
+What the layers of one element have become stands in a slot; a state is the slots of its elements.
+So the state of a shape takes room and time only for the elements that have flowed on since the one
+before, and older ones stay what they were. Slots that no state refers to any more are used again.
+"""
+
+from __future__ import annotations
+
+from weakref import WeakSet, ref
+
+import numpy as np
+
+from foilstudy.model.shell.material.return_map import LAYERS_MAX, Flow, flow_on, sum_up
+
+_SUMS = 9
+_COLLECTED, _ROOM = 1, 2
+"""Slots taken, for each element, before unused ones are sought, and free ones that there are then
+at least. The fewer are taken, the more of them stay in the fast caches."""
+
+
+class Layers:
+    """Room for the layers of all states of a foil.
+
+    Parameters
+    ----------
+    frame : ndarray, shape (elements_along, 7, elements_around)
+        See `return_map.flow_on`.
+    heights : ndarray, shape (layers,)
+        Above the middle surface, m.
+    flow : Flow
+
+    Raises
+    ------
+    ValueError
+        If there are more than `return_map.LAYERS_MAX` layers.
+
+    Attributes
+    ----------
+    values : ndarray, shape (slots, 4, layers)
+        Plastic strains 11, 22, 2 12 in Cartesian axes, the first along the first coordinate of the
+        element, and the accumulated one, which never falls. Slot 0 is that of foil that has not
+        yielded.
+    sums : ndarray, shape (slots, 9)
+        Of each slot the mean of its plastic strains and their curvature, in the coordinates of the
+        element; and the elastic energy that they alone would have, what they have dissipated and
+        what kinematic hardening keeps, J.
+    """
+
+    def __init__(self, frame: np.ndarray, heights: np.ndarray, flow: Flow):
+        if heights.size > LAYERS_MAX:
+            raise ValueError(f"a foil has {LAYERS_MAX} layers at most, not {heights.size}")
+        self._frame, self._heights, self._flow = frame, heights, flow
+        self.shape = frame.shape[0], frame.shape[2]
+        self._size = frame.shape[0] * frame.shape[2]
+        self._states: WeakSet[PlasticState] = WeakSet()
+        self.values, self.sums = np.zeros((1, 4, heights.size)), np.zeros((1, _SUMS))
+        self._free, self._taken = np.empty(0, dtype=np.int64), 0
+        self._grow()
+
+    def untouched(self) -> PlasticState:
+        """The state in which nothing has yielded."""
+        return self._noted(np.zeros(self.shape, dtype=np.int64))
+
+    def filled(self, values: np.ndarray) -> PlasticState:
+        """The state of given layers, shape (elements_along, layers, 4, elements_around)."""
+        slots = np.zeros(self.shape, dtype=np.int64)
+        yielded = np.any(values != 0, axis=(1, 2))
+        self._collect()
+        taken, self._free = np.split(self._free, [np.count_nonzero(yielded)])
+        self._taken = len(taken)
+        slots[yielded] = taken
+        self.values[taken] = values.transpose(0, 3, 2, 1)[yielded]
+        sum_up(self.values, slots, self._heights, self._frame, self._flow, self.sums)
+        return self._noted(slots)
+
+    def flowed(
+        self, strains: np.ndarray, before: PlasticState, seen: np.ndarray, room: np.ndarray
+    ) -> PlasticState:
+        """The state that strains lead to; see `return_map.flow_on`."""
+        if self._taken > _COLLECTED * self._size:
+            self._collect()
+        slots, changed = before.slots.copy(), np.empty(self._size, dtype=np.int64)
+        used = flow_on(
+            strains, self._frame, self._heights, self._flow, self.values, self.sums, seen, room,
+            slots, self._free, changed,
+        )  # fmt: skip
+        if not used:
+            return before
+        self._free, self._taken = self._free[used:], self._taken + used
+        state = self._noted(slots)
+        state.since = ref(before), changed[:used]
+        return state
+
+    def _noted(self, slots: np.ndarray) -> PlasticState:
+        state = PlasticState(self, slots)
+        self._states.add(state)
+        return state
+
+    def _collect(self) -> None:
+        """Find the slots that no state refers to."""
+        used = np.zeros(len(self.values), dtype=bool)
+        used[0] = True
+        for state in self._states:
+            used[state.slots] = True
+        self._free, self._taken = np.flatnonzero(~used), 0
+        if len(self._free) < _ROOM * self._size:
+            self._grow()
+
+    def _grow(self) -> None:
+        kept, more = len(self.values), _ROOM * self._size
+        self.values = np.concatenate([self.values, np.empty((more, *self.values.shape[1:]))])
+        self.sums = np.concatenate([self.sums, np.empty((more, _SUMS))])
+        self._free = np.concatenate([self._free, np.arange(kept, kept + more)])
+
+
+class PlasticState:
+    """What plasticity has left in a foil; never changes.
+
+    Parameters
+    ----------
+    foil : Layers
+    slots : ndarray of int, shape (elements_along, elements_around)
+
+    Attributes
+    ----------
+    foil : Layers
+    slots : ndarray of int
+        Where the layers of each element are.
+    since : tuple or None
+        The state that it came from, if that is still known, and the elements that have flowed.
+    """
+
+    def __init__(self, foil: Layers, slots: np.ndarray):
+        self.foil, self.slots = foil, slots
+        self.since: tuple[ref[PlasticState], np.ndarray] | None = None
+
+    def __repr__(self) -> str:
+        return f"<PlasticState: up to {self.accumulated.max():.3g}>"
+
+    @property
+    def layers(self) -> np.ndarray:
+        """See `Layers.values`; shape (elements_along, layers, 4, elements_around)."""
+        return np.ascontiguousarray(self.foil.values[self.slots].transpose(0, 3, 2, 1))
+
+    @property
+    def accumulated(self) -> np.ndarray:
+        """Accumulated plastic strain, shape (elements_along, layers, elements_around)."""
+        return self.layers[:, :, 3]
+
+    @property
+    def strains(self) -> np.ndarray:
+        """Mean of the plastic strains and curvature, shape (elements_along, 6, elements_around)."""
+        return np.ascontiguousarray(self.foil.sums[self.slots, :6].transpose(0, 2, 1))
+
+    def strains_of(self, elements: np.ndarray) -> np.ndarray:
+        """The same of some elements, shape (elements, 6)."""
+        return self.foil.sums[self.slots.ravel()[elements], :6]
+
+    @property
+    def energy(self) -> float:
+        """Elastic energy that the plastic strains alone would have, J."""
+        return self._total(6)
+
+    @property
+    def dissipated(self) -> float:
+        """Work that plastic flow has used up, J: all but what kinematic hardening keeps."""
+        return self._total(7)
+
+    @property
+    def kept(self) -> float:
+        """What kinematic hardening keeps, J."""
+        return self._total(8)
+
+    def _total(self, which: int) -> float:
+        return float(self.foil.sums[self.slots.ravel(), which].sum())
+
+
+def differing(state: PlasticState, other: PlasticState | None) -> np.ndarray:
+    """Elements, row times elements around plus column, that are not the same in two states."""
+    if state is other:
+        return np.empty(0, dtype=np.int64)
+    if other is None or state.foil is not other.foil:
+        return np.arange(state.slots.size)
+    if state.since and state.since[0]() is other:
+        return state.since[1]
+    return np.flatnonzero(state.slots != other.slots)
