@@ -116,8 +116,9 @@ def _fit_steps(studies: Sequence[Finished]) -> dict[str, float]:
     def deviation(model, study):
         options = study.config.relaxation
         free = model.steps_after_ramp(study.cells.slenderness)
-        steps = options.ramp_steps + np.minimum(free, options.relaxation_steps_max)
-        return np.log(study.cells.steps / steps)
+        given = [options.resolved(slenderness) for slenderness in study.cells.slenderness]
+        ramps, most = np.array([(g.ramp_steps, g.relaxation_steps_max) for g in given]).T
+        return np.log(study.cells.steps / (ramps + np.minimum(free, most)))
 
     return _fit(studies, deviation, "relaxation_steps", "slenderness_exponent")
 

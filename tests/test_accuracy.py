@@ -91,9 +91,26 @@ def test_a_size_of_the_elements_wins_over_the_error_of_the_energy():
 def test_steps_of_the_ramp_win_over_its_slowness():
     relaxation = study(relaxation={"ramp_steps": 1234}).relaxation
     assert (relaxation.ramp_steps, relaxation.ramp_slowness) == (1234, None)
-    assert relaxation.resolved(200) == relaxation
+    assert relaxation.resolved(200) == relaxation.model_copy(update={"relaxation_steps_max": 14000})
     with pytest.raises(ConfigError, match="ramp_steps settles the ramp; remove one of them"):
         study(relaxation={"ramp_steps": 1234, "ramp_slowness": 5})
+
+
+@pytest.mark.parametrize(
+    ("thickness_um", "given", "most"),
+    [
+        (50, {}, 140_000),
+        (500, {}, 14_000),
+        (1000, {}, 14_000),  # fewer would save nothing
+        (50, {"ramp_slowness": 4}, 56_000),
+        (50, {"ramp_steps": 2000}, 14_000),  # as in configurations of before
+        (50, {"relaxation_steps_max": 300}, 300),
+    ],
+)
+def test_a_slower_ramp_leaves_more_steps_to_come_to_rest(thickness_um, given, most):
+    config = study(relaxation=given, sweep=SWEEP | {"thickness_um": [thickness_um]})
+    for cell in config.cells():
+        assert config.crumple_task(cell).relaxation.relaxation_steps_max == most
 
 
 def test_a_number_of_refinements_wins_over_the_error_of_the_stiffness():

@@ -234,6 +234,18 @@ def test_a_strategy_of_a_configuration_reaches_the_method():
     assert (path.ramp_steps, path.check_interval) == (123, 7)
 
 
+@pytest.mark.parametrize("thickness_um", [25, 50, 130, 500, 1000])
+def test_without_a_method_a_foil_is_crumpled_as_by_a_study(thickness_um):
+    """Steps of ramp and rest as R/t, which at 500 um of the published case are those of a path."""
+    sweep = {"thickness_um": [thickness_um], "reference_height_mm": [150]}
+    study = load_config({"sweep": sweep, "material": {"name": "FEP"}})
+    foil = replace(FOIL, thickness=thickness_um * 1e-6)
+    method = uncrumpled(foil, COARSE).method
+    assert method == recipe_of(study.crumple_task(study.cells()[0])).method
+    assert method.path.ramp_steps == round(10 * 0.1 / foil.thickness)
+    assert (method == Method()) == (thickness_um == 500)
+
+
 def test_materials_are_known_by_name():
     assert replace(material("FEP"), name="") == FEP
     assert {material(name).name for name in MATERIALS} == set(MATERIALS)

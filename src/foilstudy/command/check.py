@@ -83,7 +83,7 @@ def _resolved(study: StudyConfig) -> Iterator[tuple[str, str]]:
         "crumple",
         f"{mesh.element} elements{auto}; {imperfection.kind} imperfection of "
         f"{imperfection.amplitude_um:g} um{correlated}; {_ramp(study)} steps of ramp, at "
-        f"most {relaxation.relaxation_steps_max} after it, to a residual of "
+        f"most {_most_steps(study)} after it, to a residual of "
         f"{relaxation.residual_tolerance:g}",
     )
     yield from departures(study.model_dump(mode="json"))
@@ -108,6 +108,11 @@ def _resolved(study: StudyConfig) -> Iterator[tuple[str, str]]:
 
 def _ramp(study: StudyConfig) -> str:
     steps = [study.relaxation_of(thickness).ramp_steps for thickness in study.thicknesses_um]
+    return _range(min(steps), max(steps))
+
+
+def _most_steps(study: StudyConfig) -> str:
+    steps = [study.relaxation_of(each).relaxation_steps_max for each in study.thicknesses_um]
     return _range(min(steps), max(steps))
 
 

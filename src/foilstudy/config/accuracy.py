@@ -13,6 +13,7 @@ from typing import Any
 
 from foilstudy.base.errors import Refusal
 from foilstudy.base.registry import did_you_mean
+from foilstudy.solve.pace import SLOWNESS
 
 __all__ = ["ACCURACIES", "AUTO", "SETTLED_BY", "STANDARD", "Accuracy", "completed"]
 
@@ -103,7 +104,7 @@ ACCURACIES: Mapping[str, Accuracy] = {
             name="standard",
             words="what a law is fitted to",
             energy_error_percent=10.0,
-            ramp_slowness=10.0,
+            ramp_slowness=SLOWNESS,
             stiffness_error_percent=5.0,
             reduction_tolerance=1e-3,
         ),

@@ -378,7 +378,7 @@ class StudyConfig(Section):
         return self.sheet.diameter_mm, self.reference_heights_mm[0], thickness_um
 
     def relaxation_of(self, thickness_um: float) -> Relaxation:
-        """Relaxation of a thickness, the steps of its ramp a number."""
+        """Relaxation of a thickness, the steps of its ramp and after it numbers."""
         return self.relaxation.resolved(1e3 * self.sheet.diameter_mm / 2 / thickness_um)
 
     def _thickness_problems(self) -> Iterator[str]:

@@ -25,6 +25,7 @@ from foilstudy.measure.choices import REDUCTIONS, STRESS_REMOVALS, STRUCTURAL_DA
 from foilstudy.model.imperfections import IMPERFECTIONS
 from foilstudy.model.materials import MATERIALS
 from foilstudy.model.shell.material import LAWS
+from foilstudy.solve import pace
 from foilstudy.solve.choices import DAMPINGS, MASSES, PATHS, SEARCHES
 
 from .accuracy import ACCURACIES, AUTO, STANDARD
@@ -428,11 +429,11 @@ class Relaxation(Section):
         gt=0,
         le=10_000,
     )
-    relaxation_steps_max: int = unit_field(
+    relaxation_steps_max: int | None = unit_field(
         "steps",
         "Most explicit steps after the ramp; what still moves then is minimised with its tangent, "
-        "which is slower.",
-        14000,
+        "which is slower. Left out: seven for each step of the ramp, at least 14000.",
+        None,
         ge=0,
         le=10_000_000,
     )
@@ -472,12 +473,15 @@ class Relaxation(Section):
         return self
 
     def resolved(self, slenderness: float) -> Relaxation:
-        """That of a foil of one R/t, the steps of its ramp a number."""
-        if self.ramp_steps is not None:
-            return self
-        steps = round(self.ramp_slowness * slenderness)
-        steps = min(max(RAMP_STEPS_MIN, steps), RAMP_STEPS_MAX)
-        return self.model_copy(update={"ramp_steps": steps, "ramp_slowness": None})
+        """That of a foil of one R/t, the steps of its ramp and after it numbers."""
+        steps, most = self.ramp_steps, self.relaxation_steps_max
+        if steps is None:
+            steps = pace.ramp_steps(slenderness, self.ramp_slowness)
+            steps = min(max(RAMP_STEPS_MIN, steps), RAMP_STEPS_MAX)
+        if most is None:
+            most = pace.rest_steps(steps)
+        numbers = {"ramp_steps": steps, "ramp_slowness": None, "relaxation_steps_max": most}
+        return self.model_copy(update=numbers)
 
 
 class Method(Section):

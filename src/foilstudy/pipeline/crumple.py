@@ -39,6 +39,7 @@ def crumple(
     imperfection : Imperfection, optional
         Its seed chooses the realisation.
     method : Method, optional
+        By default `Method.following` the foil; `Method()` is that of 500 um in the published case.
 
     Returns
     -------
@@ -132,7 +133,9 @@ def uncrumpled(
             f"{foil.gap_height:g} m; give one above the gap height."
         )
     recipe = Recipe(
-        mesh or Mesh.resolving(foil), imperfection or Imperfection(), method or Method()
+        mesh or Mesh.resolving(foil),
+        imperfection or Imperfection(),
+        method or Method.following(foil),
     )
     if not (foil.specimen.clamps.true or isinstance(recipe.method.path, RelaxationPath)):
         raise Refusal(

@@ -17,6 +17,8 @@ from foilstudy.model.patch import Patch
 from foilstudy.model.shell.elements import ELEMENTS
 from foilstudy.model.shell.elements.protocol import Element
 from foilstudy.solve.choices import PATHS
+from foilstudy.solve.equilibrium.settle import SettleOptions
+from foilstudy.solve.pace import ramp_steps, rest_steps
 from foilstudy.solve.paths import Path
 from foilstudy.solve.paths.relaxation import RelaxationPath
 
@@ -92,6 +94,16 @@ class Method:
 
     def __post_init__(self):
         require_number("waiting time of a method", self.waiting, "s", least=0)
+
+    @classmethod
+    def following(cls, foil: Foil) -> Self:
+        """The standard one, with a ramp that the foil can follow: thin foil moves slowly.
+
+        That of a study of standard accuracy; see `foilstudy.solve.pace`.
+        """
+        steps = ramp_steps(foil.diameter / 2 / foil.thickness)
+        settling = SettleOptions(relaxation_steps_max=rest_steps(steps))
+        return cls(RelaxationPath(steps, settling=settling))
 
     def __repr__(self) -> str:
         kinds = f"{self.path.kind}, stress {self.stress_removal.kind}"

@@ -18,6 +18,7 @@ from foilstudy.pipeline.crumpled import Crumpled, Recipe
 from foilstudy.pipeline.evidence import seen_in
 from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.solve.equilibrium.settle import SettleOptions
+from foilstudy.solve.pace import SLOWNESS
 from foilstudy.solve.paths.relaxation import RelaxationPath
 from foilstudy.solve.paths.ring_alone import RingAlonePath
 from foilstudy.solve.relaxation.mass.spectral import SpectralMassScaling
@@ -25,8 +26,6 @@ from foilstudy.solve.relaxation.scheme import Scheme
 
 __all__ = ["Attempts", "attempted", "safer"]
 
-SLOWNESS = 10.0
-"""Steps of the ramp for each unit of R/t, at least: those of standard accuracy."""
 SLOWER = 4
 """Factor of the steps of the ramp from one attempt to the next; twice as many of the relaxation."""
 _CURABLE = ("not_converged", "diverged", "saddle", "folded_globally", "rate_dependent")

@@ -253,7 +253,7 @@ def _configuration(study: StudyConfig, cell: Cell, model: CostModel) -> Expected
     most, refinements = response.refinements, _refinements(response, width)
     meshes = tuple(4**level * elements for level in range(refinements + 1))
     relaxed = [4**level * elements for level in range(1, study.stiffness.relaxed_refinements + 1)]
-    relaxing = min(model.steps_after_ramp(slenderness), study.relaxation.relaxation_steps_max)
+    relaxing = min(model.steps_after_ramp(slenderness), task.relaxation.relaxation_steps_max)
     ramp, halvings = task.relaxation.ramp_steps, task.mesh.ramp_coarsenings
     steps = ramp + round(relaxing)
     # relaxed on every mesh from that of the ramp on

@@ -6,14 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from foilstudy.config.accuracy import STANDARD
-from foilstudy.config.sections import Relaxation
 from foilstudy.linalg import SolveError
 from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.pipeline.crumple import crumple
 from foilstudy.pipeline.crumpled import Crumpled, Recipe
 from foilstudy.pipeline.method import Mesh, Method
-from foilstudy.solve.paths.relaxation import RelaxationPath
 from foilstudy.study.published import foil
 from foilstudy.study.tradeoff.settings import Point
 
@@ -59,9 +56,7 @@ def recipe(point: Point) -> Recipe:
 
 def method_for(sheet: Foil) -> Method:
     """That of the standard accuracy."""
-    relaxation = Relaxation(ramp_slowness=STANDARD.ramp_slowness)
-    steps = relaxation.resolved(sheet.diameter / 2 / sheet.thickness).ramp_steps
-    return Method(RelaxationPath(ramp_steps=steps))
+    return Method.following(sheet)
 
 
 def _crumple(sheet: Foil, recipe: Recipe, seed: int) -> Crumpled:

@@ -20,7 +20,7 @@ from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.model.shell.elements.sampled import STAGGERED
 from foilstudy.pipeline.crumple import crumple, uncrumpled
 from foilstudy.pipeline.crumpled import Crumpled
-from foilstudy.pipeline.method import Mesh
+from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.pipeline.static import mesh_limit_within, stress_free_stiffness
 from foilstudy.pipeline.structures import stress_free_structure
 from foilstudy.study.elements.plan import DEFAULT
@@ -98,9 +98,11 @@ def _crumpled(point: Point, shapes: Mapping[CrumpleCase, Record]) -> Crumpled:
     return replace(start, points=_found(point, shapes)["points"])
 
 
-def _recipe(case: CrumpleCase) -> tuple[Foil, Mesh, Imperfection]:
+def _recipe(case: CrumpleCase) -> tuple[Foil, Mesh, Imperfection, Method]:
+    """With one ramp for all: any shape will do, and what is charted is measured on the same."""
     sheet = foil(case.thickness_um, case.height_mm)
-    return sheet, Mesh(case.size_mm * 1e-3, case.element), Imperfection(seed=case.seed)
+    mesh = Mesh(case.size_mm * 1e-3, case.element)
+    return sheet, mesh, Imperfection(seed=case.seed), Method()
 
 
 def _found(point: Point, shapes: Mapping[CrumpleCase, Record]) -> dict:
