@@ -13,7 +13,7 @@ import numpy as np
 from numba import njit
 
 from foilstudy.model.shell.elements.corner_data import VertexPlaces, vertex_laws
-from foilstudy.model.shell.elements.corner_kernel import LANES, STEPS, VALUES, internal_force
+from foilstudy.model.shell.elements.corner_kernel import LANES, STEPS, internal_force
 from foilstudy.model.shell.section import Section
 
 _PLACES = LANES * (STEPS + 1)
@@ -92,7 +92,7 @@ class CornerRelief:
 
 
 def _inverses(laws: np.ndarray) -> np.ndarray:
-    """Of symmetric matrices by their coefficients 11, 22, 12, 16, 26, 66, shape (rows, 6, lines)."""
+    """Of symmetric matrices by coefficients 11, 22, 12, 16, 26, 66, shape (rows, 6, lines)."""
     c11, c22, c12, c16, c26, c66 = laws.transpose(1, 0, 2)
     inverse = np.stack(
         [
