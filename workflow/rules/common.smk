@@ -165,6 +165,8 @@ def start_worker():
     log = Path(LOGS, "worker.log")
     log.parent.mkdir(parents=True, exist_ok=True)
     command = [sys.executable, "-P", f"{SCRIPTS}/worker.py"]
+    if STUDY.contact.kind != "none":
+        command.append("contact")
     with log.open("a") as errors:  # a run of another study may be writing to it
         # -P keeps a script's own folder from hiding modules.
         worker = subprocess.Popen(

@@ -1,7 +1,7 @@
-"""Fill the kernel cache, then run the jobs of a study: worker.py."""
+"""Fill the kernel cache, then run the jobs of a study: worker.py [contact]."""
 
 import sys
 
 from foilstudy.study.worker import work
 
-work(again=sys.argv[1:] == ["again"])
+work(again=sys.argv.count("again"), contact="contact" in sys.argv)

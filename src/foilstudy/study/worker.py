@@ -31,7 +31,7 @@ from foilstudy.study.sweep.warmup import compile_kernels
 _STANDARD_STREAMS = 3
 
 
-def work(again: bool) -> None:
+def work(again: int, contact: bool = False) -> None:
     """Load every kernel, print the path of the worker's socket, and serve to the end of the study.
 
     That end is the end of standard input, whose other side the study holds. Where there can be no
@@ -39,8 +39,10 @@ def work(again: bool) -> None:
 
     Parameters
     ----------
-    again : bool
-        Whether this is the process after the one that compiled.
+    again : int
+        How many processes before this one have compiled.
+    contact : bool
+        Whether parts of the foil touch in the study.
 
     Raises
     ------
@@ -51,8 +53,8 @@ def work(again: bool) -> None:
     git_commit()
     remember_codes()
     with redirect_stdout(sys.stderr):
-        compiled = compile_kernels()
-    if compiled and not again:
+        compiled = compile_kernels(contact)
+    if compiled and again < 1 + contact:
         # A kernel just compiled may differ in its last bits from the same one out of the cache.
         os.execv(sys.executable, [sys.executable, *sys.orig_argv[1:], "again"])
     with tempfile.TemporaryDirectory(prefix="foilstudy-") as folder:

@@ -161,25 +161,32 @@ def largest_control_deviation(here, before):
     x = here[0, middle, 0] - before[0, middle, 0]
     y = here[1, middle, 0] - before[1, middle, 0]
     z = here[2, middle, 0] - before[2, middle, 0]
-    most = 0.0
+    most = np.zeros(here.shape[2])
     for j in range(here.shape[1]):
-        for i in range(here.shape[2]):
-            dx = here[0, j, i] - before[0, j, i] - x
-            dy = here[1, j, i] - before[1, j, i] - y
-            dz = here[2, j, i] - before[2, j, i] - z
+        px, py, pz = here[0, j], here[1, j], here[2, j]
+        qx, qy, qz = before[0, j], before[1, j], before[2, j]
+        for i in range(most.size):
+            dx, dy, dz = px[i] - qx[i] - x, py[i] - qy[i] - y, pz[i] - qz[i] - z
             square = dx * dx + dy * dy + dz * dz
-            if not square <= most:
-                most = square
-    return np.sqrt(most)
+            most[i] = most[i] if square <= most[i] else square
+    return np.sqrt(_largest(most))
 
 
 @njit(cache=True, error_model="numpy")
 def largest_motion(motion):
     """Largest motion of a control point, shape (3, rows, columns)."""
-    most = 0.0
+    most = np.zeros(motion.shape[2])
     for j in range(motion.shape[1]):
-        for i in range(motion.shape[2]):
-            square = motion[0, j, i] ** 2 + motion[1, j, i] ** 2 + motion[2, j, i] ** 2
-            if not square <= most:
-                most = square
-    return np.sqrt(most)
+        dx, dy, dz = motion[0, j], motion[1, j], motion[2, j]
+        for i in range(most.size):
+            square = dx[i] * dx[i] + dy[i] * dy[i] + dz[i] * dz[i]
+            most[i] = most[i] if square <= most[i] else square
+    return np.sqrt(_largest(most))
+
+
+@njit(cache=True, error_model="numpy")
+def _largest(values):
+    most = 0.0
+    for value in values:
+        most = most if value <= most else value
+    return most
