@@ -240,8 +240,11 @@ class Friction:
     def restored(self, values: Mapping[str, np.ndarray]) -> Sticks:
         """See `solve.problem.Lasting`."""
         ends = np.cumsum([*3 * [sliding.POINTS], 3, 1, 3])
-        columns = np.split(np.asarray(values[f"{self._name}_contacts"]), ends, axis=1)
-        stencils, sides, weights, direction, force, stretched, arms = columns
+        parts = np.split(np.asarray(values[f"{self._name}_contacts"]), ends, axis=1)
+        # contiguous, or every kernel would be compiled once more
+        stencils, sides, weights, direction, force, stretched, arms = map(
+            np.ascontiguousarray, parts
+        )
         ids = stencils.astype(np.int64), sides.astype(np.int64)
         contacts = Pressing(*ids, weights, direction, force[:, 0])
         return Sticks(
