@@ -38,7 +38,7 @@ REALISATIONS_MAX_DEFAULT = 24
 CONFIDENCE_DEFAULT_PERCENT = 20.0
 RAMP_STEPS_MIN = 100
 """In fewer the foil cannot follow the ring."""
-RAMP_STEPS_MAX = 10_000_000
+RAMP_STEPS_MAX = REST_STEPS_MAX = 10_000_000
 TEXT_MAX = 200
 # Any characters of any language, and several lines, but none that no file or terminal can show.
 _SHOWN = r"^[^\x00-\x08\x0B-\x1F\x7F-\x9F\u2028\u2029]*$"
@@ -435,7 +435,7 @@ class Relaxation(Section):
         "which is slower. Left out: seven for each step of the ramp, at least 14000.",
         None,
         ge=0,
-        le=10_000_000,
+        le=REST_STEPS_MAX,
     )
     switch_residual: float = unit_field(
         "1",
@@ -479,7 +479,7 @@ class Relaxation(Section):
             steps = pace.ramp_steps(slenderness, self.ramp_slowness)
             steps = min(max(RAMP_STEPS_MIN, steps), RAMP_STEPS_MAX)
         if most is None:
-            most = pace.rest_steps(steps)
+            most = min(pace.rest_steps(steps), REST_STEPS_MAX)
         numbers = {"ramp_steps": steps, "ramp_slowness": None, "relaxation_steps_max": most}
         return self.model_copy(update=numbers)
 
