@@ -28,6 +28,7 @@ from foilstudy.solve.problem import Problem
 from foilstudy.solve.relaxation.mass.spectral import SpectralMassScaling
 from foilstudy.solve.relaxation.mass.touching import minding_contact
 from foilstudy.solve.relaxation.scheme import Scheme
+from foilstudy.study.sweep import warmup
 
 THICKNESS, REACH = 1e-4, 1e-3
 SPAN = (THICKNESS + REACH) ** 2 - THICKNESS**2
@@ -547,3 +548,8 @@ def test_a_plastic_foil_that_touches_is_measured_on_meshes_that_cannot_carry_its
         crumpled.refined().contacts()
     assert np.isfinite(crumpled.mesh_limit(2).stiffness).all()
     assert crumpled.refined().arrival.state[1].accumulated.max() > 0
+
+
+def test_the_warm_up_presses_a_foil_until_it_touches():
+    """It raises where nothing touches, or where the shape crosses itself."""
+    warmup._touching()

@@ -104,7 +104,7 @@ def _touching() -> None:
     foil, patch, points = _cylinder()
     section = Shell.elastic(patch, points, foil.material, foil.thickness).section
     sheet, planes = BarrierContact(ring_planes=True).terms(section)
-    half = 0.5 * sheet.thickness + 0.25 * sheet.reach
+    half = 0.5 * sheet.thickness + 0.45 * sheet.reach  # an end is half as far from both sides
     pressed = points.copy()
     np.clip(points[1], -half, half, out=pressed[1])
     force = np.empty_like(points)

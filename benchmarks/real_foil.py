@@ -1,0 +1,102 @@
+"""What a step costs of foil that yields, or whose parts touch: a section of results.md.
+
+    .venv/bin/python benchmarks/real_foil.py        five minutes
+    .venv/bin/python benchmarks/real_foil.py 170    at this height alone, mm
+
+Processor time on one core of the way from the cylinder to the end of the ramp, the foils in turns.
+What everything else on the machine takes from the caches counts: run it on one that is idle.
+"""
+
+from __future__ import annotations
+
+import statistics
+import sys
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from measuring import write_section  # isort: skip
+
+from foilstudy.base.provenance import machine
+from foilstudy.base.tables import markdown_table
+from foilstudy.model.contact.options import BarrierContact
+from foilstudy.model.foil import Imperfection
+from foilstudy.model.materials import Material
+from foilstudy.pipeline.crumple import uncrumpled
+from foilstudy.pipeline.method import Mesh
+from foilstudy.solve.problem import Problem
+from foilstudy.solve.relaxation import Ramp, Scheme, StoppingRule, relax
+from foilstudy.study.published import FEP, foil
+
+HEIGHTS_MM = (150, 170, 250)
+RAMP_STEPS, TURNS = 4000, 3
+ELASTIC, PLASTIC, TOUCHING = "elastic", "plastic", "elastic, contact"
+
+
+@dataclass(frozen=True)
+class Case:
+    """A foil of 500 um on 5 mm, of one kind."""
+
+    height_mm: float
+    kind: str
+
+    def problem(self) -> Problem:
+        """Its potential energy."""
+        law = "plastic" if self.kind == PLASTIC else "elastic"
+        made = Material(
+            FEP.youngs_modulus, FEP.poisson_ratio, FEP.density, FEP.yield_stress, law=law
+        )
+        shape = uncrumpled(
+            replace(foil(500, self.height_mm), material=made), Mesh(5e-3), Imperfection(seed=0)
+        )
+        contacts = BarrierContact().terms(shape.stressed.section) if self.kind == TOUCHING else ()
+        return Problem(shape.stressed, *shape.terms(), *contacts)
+
+    def step(self) -> float:
+        """Processor time of a step of the ramp, s.
+
+        Raises
+        ------
+        RuntimeError
+            If the ramp is not followed to its end.
+        """
+        problem = self.problem()
+        motion = Scheme().start(problem)
+        ramp = Ramp(foil(500, self.height_mm).shortening, RAMP_STEPS)
+        start = time.process_time()
+        result = relax(problem, motion, ramp, StoppingRule(0.0, 0))
+        if result.steps != RAMP_STEPS:
+            raise RuntimeError(f"{self}: {result.message}")
+        return (time.process_time() - start) / RAMP_STEPS
+
+
+def measured(height_mm: float) -> Mapping[str, float]:
+    """Median time of a step of every kind, s; the first turn loads kernels and is not counted."""
+    cases = [Case(height_mm, kind) for kind in (ELASTIC, PLASTIC, TOUCHING)]
+    turns = [[case.step() for case in cases] for _ in range(TURNS + 1)][1:]
+    return {
+        case.kind: statistics.median(times)
+        for case, times in zip(cases, zip(*turns, strict=True), strict=True)
+    }
+
+
+def main(heights_mm: tuple[float, ...]) -> None:
+    """Measure and write the section."""
+    rows = []
+    for height in heights_mm:
+        times = measured(height)
+        rows.append(
+            [f"{100 * (height / 130 - 1):.0f} %"]
+            + [f"{1e3 * times[kind]:.3f}" for kind in times]
+            + [f"{times[kind] / times[ELASTIC]:.2f}" for kind in (PLASTIC, TOUCHING)]
+        )
+    head = ["overlength", ELASTIC, PLASTIC, TOUCHING, "plastic over elastic", "contact over none"]
+    words = (
+        f"{machine()}. 500 µm on 5 mm, a ramp of {RAMP_STEPS} steps; ms of processor time a step, "
+        f"medians of {TURNS}."
+    )
+    write_section("Real foil", f"{words}\n\n{markdown_table(head, rows)}")
+
+
+if __name__ == "__main__":
+    main(tuple(map(float, sys.argv[1:])) or HEIGHTS_MM)
