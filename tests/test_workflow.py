@@ -165,6 +165,16 @@ def test_title_leaves_all_physics_alone(finished):
     assert not {"crumple", "response", "cylinder", "export"} & set(jobs)
 
 
+def test_a_measurement_makes_the_page_alone_again(finished):
+    (finished / "run{1}.csv").write_text("frequency (Hz),real (N/m),imag (N/m)\n1,2,3\n2,3,4\n")
+    run = {"file": "run{1}.csv", "height_mm": 143}
+    assert plan(finished, sections_with(report={"measured": [run]})) == {"report": 1, "study": 1}
+    said = snakemake(
+        finished, sections_with(report={"measured": [run | {"file": "ran.csv"}]}), "-n"
+    )
+    assert said.returncode and "report.measured[0].file: ran.csv: there is no such" in said.stdout
+
+
 def test_new_thickness_leaves_finished_realisations_alone(finished):
     jobs = plan(finished, sections_with(sweep={"thickness_um": [500, 130]}))
     assert (jobs["crumple"], jobs["response"], jobs["cube"]) == (4, 4, 1)

@@ -15,7 +15,7 @@ from foilstudy.config.chosen import choices
 from foilstudy.config.slips import likely_slips, unresolved
 from foilstudy.present.figures import FIGURES
 from foilstudy.present.files import StudyFiles
-from foilstudy.present.measured import measured_of
+from foilstudy.present.measured_files import measured_of
 from foilstudy.present.shown import shown
 from foilstudy.study.registry import refuse_reserved_name
 from foilstudy.study.sweep.expected import MEMORY_SPREAD, costly, expected
@@ -44,7 +44,7 @@ except ConfigError as problem:
     refuse(problem)
 
 try:
-    MEASURED = measured_of(STUDY)
+    measured_of(STUDY)  # what cannot be read is refused before hours of physics
 except Refusal as problem:
     refuse(problem)
 

@@ -90,6 +90,8 @@ rule figure:
         "{RUN} present.jobs:figure {wildcards.figure} {RESULTS} {input.crumples} > {log} 2>&1"
 
 
+# Measurements on the page are no input, as Snakemake takes braces in a name for a wildcard: the page
+# is made again when they have changed, by what its manifest holds (stale.smk).
 rule report:
     input:
         cube=rules.cube.output,
@@ -97,8 +99,6 @@ rule report:
         figures=FIGURE_FILES,
         crumples=of_all(CRUMPLE),
         responses=of_all(RESPONSE),
-        # by a function, as a name may hold braces
-        measured=lambda wildcards: [str(each.path) for each in MEASURED],
     output:
         report(
             f"{RESULTS}/report.html",

@@ -6,7 +6,7 @@ cloning or deleting folders changes. The records themselves say what they were m
 
 from functools import cache
 
-from foilstudy.present.measured import stale_page
+from foilstudy.present.measured_files import stale_page
 from foilstudy.study.kernel.files import stale_results as stale_side_results
 from foilstudy.study.stale import sentences
 from foilstudy.study.sweep.stale import stale_results

@@ -41,7 +41,7 @@ def check(file: Path, /, *, cores: Cores = 2) -> None:
         YAML file of the study.
     """
     from foilstudy.config.slips import known_to_fail, likely_slips, unresolved
-    from foilstudy.present.measured import measured_of
+    from foilstudy.present.measured_files import measured_of
     from foilstudy.study.sweep.expected import costly, expected
 
     study = read_study(file)

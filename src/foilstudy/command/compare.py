@@ -42,7 +42,8 @@ def compare(
         Picture, as PNG and SVG; else beside FILE, with -compared behind its name.
     """
     from foilstudy.base.cube import open_cube
-    from foilstudy.present.measured import MeasuredFile, drawn, findings, title_of
+    from foilstudy.present.measured import drawn, findings, title_of
+    from foilstudy.present.measured_files import MeasuredFile
 
     measured = MeasuredFile.of(file, thickness, height, direction, definition, function)
     values = open_cube(cube / "cube.nc" if cube.is_dir() else cube)

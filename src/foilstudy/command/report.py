@@ -47,7 +47,7 @@ def report(
     function : str
         Part of the name of the response, where a file holds several; likewise.
     """
-    from foilstudy.present.measured import MeasuredFile
+    from foilstudy.present.measured_files import MeasuredFile
     from foilstudy.present.redraw import redraw
 
     files = measured or []

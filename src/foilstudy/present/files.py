@@ -16,7 +16,7 @@ from foilstudy.config.model import overlength_id, thickness_id
 from foilstudy.present.statistics.cells import realised
 
 if TYPE_CHECKING:
-    from foilstudy.present.measured import MeasuredFile
+    from foilstudy.present.measured_files import MeasuredFile
 
 CELL = ("thickness", "overlength", "seed")
 _UNKNOWN = "in a cube of a release before 0.4"

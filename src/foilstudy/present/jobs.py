@@ -16,7 +16,7 @@ import foilstudy.plot.render
 from foilstudy.config import StudyConfig
 from foilstudy.present.figures import draw_figures
 from foilstudy.present.files import StudyFiles
-from foilstudy.present.measured import measured_of
+from foilstudy.present.measured_files import measured_of
 from foilstudy.present.report import write_report
 from foilstudy.present.shown import note_origin, shown
 from foilstudy.present.statistics.tables import write_tables

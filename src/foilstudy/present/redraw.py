@@ -11,7 +11,7 @@ from foilstudy.base.cube import CONTENT, verified_attributes
 from foilstudy.base.manifest import noted_origin, outdated
 from foilstudy.present.figures import FIGURES, FigureSpec, draw_figures
 from foilstudy.present.files import StudyFiles
-from foilstudy.present.measured import MeasuredFile, noted_files
+from foilstudy.present.measured_files import MeasuredFile, noted_files
 from foilstudy.present.report import write_report
 from foilstudy.present.shown import note_origin
 from foilstudy.present.statistics.tables import write_tables

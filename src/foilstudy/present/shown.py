@@ -8,7 +8,7 @@ from pathlib import Path
 from foilstudy.base.manifest import write_manifest
 from foilstudy.present.figures import FIGURES
 from foilstudy.present.files import StudyFiles
-from foilstudy.present.measured import notes_of
+from foilstudy.present.measured_files import notes_of
 from foilstudy.present.statistics.tables import TABLES
 from foilstudy.study.sweep.origins import presented_origin
 

@@ -10,7 +10,8 @@ import xarray as xr
 
 from foilstudy.base.errors import Refusal
 from foilstudy.plot import style
-from foilstudy.present.measured import MeasuredFile, draw, findings, title_of
+from foilstudy.present.measured import draw, findings, title_of
+from foilstudy.present.measured_files import MeasuredFile
 
 __all__ = ["Beside", "measurements"]
 
