@@ -17,6 +17,7 @@ from pydantic import (
     PlainSerializer,
     WithJsonSchema,
     WrapValidator,
+    model_serializer,
     model_validator,
 )
 
@@ -677,3 +678,12 @@ class Report(Section):
         max_length=50,
         strict=False,
     )
+
+    @model_serializer(mode="wrap")
+    def _without_empty_list(self, values_of: Callable[[Report], dict[str, Any]]) -> dict[str, Any]:
+        """Cubes and records of studies without measurements stay as they were before there were
+        any."""
+        values = values_of(self)
+        if not self.measured:
+            values.pop("measured", None)
+        return values
