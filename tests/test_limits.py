@@ -15,7 +15,7 @@ from foilstudy.study import jobs
 from foilstudy.study.kernel.files import read_record
 from foilstudy.study.kernel.plan import Record, case_name
 from foilstudy.study.limits.figures import chart, gallery
-from foilstudy.study.limits.map import mapped
+from foilstudy.study.limits.map import found, mapped
 from foilstudy.study.limits.measured import Measured
 from foilstudy.study.limits.measures import measure as measure_every_way
 from foilstudy.study.limits.measures import page as page_of_measures
@@ -164,6 +164,15 @@ def fields():
     }
     records = {case: Record("trials", case, result, Cost()) for case, result in results.items()}
     return mapped({"trials": records})
+
+
+def test_a_ramp_too_fast_to_tell_its_work_keeps_its_doubt():
+    """Which is infinite, and no number in a record."""
+    hurried = GOOD | {"work_over_energy": None, "verdicts": ["converged", "rate_dependent"]}
+    record = Record("trials", trial("default"), hurried, Cost())
+    assert found(record) == ["converged", "rate_dependent"]
+    unknown = Record("trials", trial("default"), GOOD | {"work_over_energy": None}, Cost())
+    assert found(unknown) == ["converged"]
 
 
 def test_a_bias_is_against_the_default_and_of_sound_trials(fields):

@@ -40,7 +40,7 @@ _CLEAREST = {
     "locked": lambda result: result["membrane_energy"] / result["bending_energy"],
     "spurious": lambda result: -result["least_stiffness"],
     "self_crossing": lambda result: result["self_crossing_share"],
-    "rate_dependent": lambda result: result["work_over_energy"],
+    "rate_dependent": lambda result: result["work_over_energy"] or 0.0,
 }
 """By verdict that leaves a shape, what is greatest where it is clearest."""
 _PICTURE = 2.1

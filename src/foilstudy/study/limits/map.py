@@ -81,6 +81,8 @@ def found(record: Record) -> list[str]:
     if "alternation" not in known:  # it has left no shape
         return record.result["verdicts"]
     known = {name: value for name, value in known.items() if value is not None}
+    if "work_over_energy" not in known and "rate_dependent" in record.result["verdicts"]:
+        known["work_over_energy"] = np.inf  # too fast to tell, and no number in a record
     return [verdict.name for verdict in verdicts(Evidence(**known))]
 
 
