@@ -6,6 +6,7 @@ from pathlib import Path
 
 import handmade
 import numpy as np
+import pandas as pd
 import pytest
 from conftest import FOIL
 from handmade import COLUMNS, FOLDED, HOURGLASSED, RADIUS, RIDGED
@@ -178,9 +179,10 @@ def test_a_spring_between_rings_costs_nothing_as_a_whole_and_a_negative_one_show
 
 # --- trials of the map, labelled by method and picture ------------------------------------------
 
+RESULTS = Path(__file__).parents[1] / "results"
 LABELLED = json.loads((Path(__file__).parent / "reference/labelled.json").read_text())
 HELD_BACK = [trial for trial in LABELLED if trial.get("held_back")]
-"""Of 135 and 250 mm, made and labelled when all limits stood."""
+"""Of 135 and 250 mm, labelled when all limits stood; one has moved since, see below."""
 KNOWN = [trial for trial in LABELLED if trial not in HELD_BACK]
 JUDGED = {"diverged", "folded_globally", "hourglassed", "locked"}
 
@@ -206,12 +208,21 @@ def test_labelled_trials_are_judged_as_they_were_labelled():
 
 
 def test_of_trials_that_were_held_back_none_is_convicted_and_only_known_ones_are_missed():
-    """Folds beside a ring that moves alone, at 92 % overlength, are told from 0.7 on."""
+    """Three folds beside a ring that moves alone, at 92 %, are in doubt as hurried on the map.
+
+    The shares of the labelled trials have four digits.
+    """
     assert len(HELD_BACK) >= len(KNOWN)
     assert not false(HELD_BACK)
-    assert len(missed(HELD_BACK)) <= 6
+    assert len(missed(HELD_BACK)) <= 3
+    table = pd.read_csv(RESULTS / "limits/limits.csv")
     for trial in missed(HELD_BACK):
-        assert trial["method"].startswith("ring alone") and trial["height_mm"] == 250, trial
+        share = trial["evidence"]["broad_wave_share"]
+        near = np.isclose(
+            table["broad_wave_share"], share, rtol=0, atol=6e-5
+        )  # four digits are kept
+        same = table[near & (table["height_mm"] == trial["height_mm"])]
+        assert same["verdicts"].str.contains("rate_dependent").all() and len(same), trial
 
 
 # --- what elements do not see, and the work of the ring ------------------------------------------

@@ -29,7 +29,7 @@ BROAD_MAX = 0.9
 """Share of broad waves (`broad_wave_share`) from which a cylinder has folded as a whole: 0.29 to
 0.75 in the crumples of the published case, 1 of a concertina, a pleat or a kink."""
 
-BROAD_BESIDE_CALM, CALM = 0.7, 0.5
+BROAD_BESIDE_CALM, CALM = 0.6, 0.5
 """The same where the calmer half of the height is displaced less than this share of the other one
 (`calmer_half`): a fold beside a ring. Crumples of the published case have 0.54 and more."""
 
