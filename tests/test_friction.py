@@ -262,6 +262,13 @@ def test_sticking_contacts_stiffen_what_the_barrier_alone_leaves_free(record):
     assert (prestressed_stiffness(problem, points) > prestressed_stiffness(smooth, points)).all()
 
 
+def test_on_a_finer_mesh_contacts_begin_anew(record):
+    """Their knots are those of the mesh on which they closed."""
+    crumpled = Crumpled.recorded(record)
+    assert len(crumpled.problem().state[-1]) > 0
+    assert len(crumpled.refined().problem().state[-1]) == 0
+
+
 def test_without_friction_there_is_no_such_term():
     section = flattened()[0].section
     assert [type(term) for term in BarrierContact().terms(section)] == [SelfContact]

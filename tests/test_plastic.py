@@ -1,5 +1,7 @@
 """Plasticity in layers: against closed forms, its derivatives, and in a crumple."""
 
+import copy
+import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -269,6 +271,24 @@ def test_states_stay_what_they_were_however_many_follow():
         assert np.array_equal(state.layers, layers)
         assert np.array_equal(term.evolved(points, state).layers, layers)
     assert len(state.foil.values) < 60 * state.slots.size
+
+
+@pytest.mark.parametrize(
+    "again", [copy.copy, copy.deepcopy, lambda state: pickle.loads(pickle.dumps(state))]
+)
+def test_copies_of_a_state_stay_what_they_were(again):
+    """When the original is gone and others have taken all the room that is free."""
+    shell, term = plastic_sheet(wild_sheet, Corner())
+    state = term.start()
+    for seed in range(2):
+        state = term.evolved(wild_shape(shell, seed=seed), state)
+    copied, layers, energy = again(state), state.layers, state.energy
+    follower = copied
+    for seed in range(2, 12):
+        state = term.evolved(wild_shape(shell, seed=seed), state)
+        follower = term.evolved(wild_shape(shell, seed=seed), follower)
+    assert np.array_equal(copied.layers, layers) and layers.any()
+    assert copied.energy == pytest.approx(energy, rel=1e-12)
 
 
 @either_element

@@ -205,6 +205,8 @@ class Crumpled(Shape):
             refined = replace(refined, rest=self.rest.refined())
         if not (self.arrival and self.arrival.state):
             return refined
+        # what contacts remember is of knots that are others now: they begin anew
+        refined = replace(refined, arrival=replace(self.arrival, state=()))
         fresh = replace(refined, arrival=None)._remembered()
         return refined._remembering(fresh, self._remembered().split())
 

@@ -7,6 +7,7 @@ before, and older ones stay what they were. Slots that no state refers to any mo
 
 from __future__ import annotations
 
+from typing import Any, Self
 from weakref import WeakSet, ref
 
 import numpy as np
@@ -37,6 +38,8 @@ class Layers:
 
     Attributes
     ----------
+    made_of : tuple
+        The parameters.
     values : ndarray, shape (slots, 4, layers)
         Plastic strains 11, 22, 2 12 in Cartesian axes, the first along the first coordinate of the
         element, and the accumulated one, which never falls. Slot 0 is that of foil that has not
@@ -50,7 +53,7 @@ class Layers:
     def __init__(self, frame: np.ndarray, heights: np.ndarray, flow: Flow):
         if heights.size > LAYERS_MAX:
             raise ValueError(f"a foil has {LAYERS_MAX} layers at most, not {heights.size}")
-        self._frame, self._heights, self._flow = frame, heights, flow
+        self._frame, self._heights, self._flow = self.made_of = frame, heights, flow
         self.shape = frame.shape[0], frame.shape[2]
         self._size = frame.shape[0] * frame.shape[2]
         self._states: WeakSet[PlasticState] = WeakSet()
@@ -138,6 +141,17 @@ class PlasticState:
     def __repr__(self) -> str:
         return f"<PlasticState: up to {self.accumulated.max():.3g}>"
 
+    def __copy__(self) -> Self:
+        """Itself: another one's slots would be used again, as its foil would not know of it."""
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Self:
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickled with its own layers alone, to be the state of a foil of its own."""
+        return _alone, (*self.foil.made_of, self.layers)
+
     @property
     def layers(self) -> np.ndarray:
         """See `Layers.values`; shape (elements_along, layers, 4, elements_around)."""
@@ -174,6 +188,10 @@ class PlasticState:
 
     def _total(self, which: int) -> float:
         return float(self.foil.sums[self.slots.ravel(), which].sum())
+
+
+def _alone(frame: np.ndarray, heights: np.ndarray, flow: Flow, layers: np.ndarray) -> PlasticState:
+    return Layers(frame, heights, flow).filled(layers)
 
 
 def differing(state: PlasticState, other: PlasticState | None) -> np.ndarray:
