@@ -42,11 +42,12 @@ def check(file: Path, /, *, cores: Cores = 2) -> None:
         YAML file of the study.
     """
     from foilstudy.config.slips import known_to_fail, likely_slips, unresolved
-    from foilstudy.present.measured_files import measured_of
     from foilstudy.study.sweep.expected import costly, expected
 
     study = read_study(file)
     if study.report.measured:
+        from foilstudy.present.measured_files import measured_of  # which loads netCDF4
+
         measured_of(study, study_folder())
     cost = expected(study)
     lines = [f"{file}: no problem; results go to results/{study.study.name}.", ""]
