@@ -153,6 +153,25 @@ def test_check_says_what_the_accuracy_decided_and_what_overrules_it(tmp_path, ca
     assert text.count("12 mm  as given") == 2
 
 
+def test_check_says_that_contacts_rub(tmp_path, capsys):
+    path = tmp_path / "study.yaml"
+    path.write_text(yaml.safe_dump(changed(contact={"kind": "barrier", "friction": 0.3})))
+    assert "between parts of the foil, friction of 0.3\n" in spoken(capsys, "check", path)
+
+
+def test_check_looks_for_measurements_where_a_run_does(tmp_path, monkeypatch):
+    path = tmp_path / "study.yaml"
+    runs = [{"file": "no-such-run.csv", "thickness_um": 500, "height_mm": 170}]
+    path.write_text(yaml.safe_dump(changed(report={"measured": runs})))
+    (tmp_path / "no-such-run.csv").write_text(
+        "frequency (Hz),real (N/m),imag (N/m)\n1,2,3\n2,3,4\n"
+    )
+    monkeypatch.chdir(tmp_path)
+    assert f"{ROOT / 'no-such-run.csv'}: there is no such file" in refusal("check", path)
+    (tmp_path / "Snakefile").touch()
+    main(["check", str(path)])
+
+
 def test_check_counts_the_jobs_that_snakemake_plans(tmp_path):
     study = changed(export={"formats": ["npz"]}, stiffness={"relaxed_refinements": 1})
     for config in (TINY, study):

@@ -376,6 +376,9 @@ def test_single_value_instead_of_a_list():
     assert problem_of(study(sweep={"thickness_um": 50})) == (
         "sweep.thickness_um is 50, not a list; write [50]."
     )
+    assert problem_of(study(report={"measured": "run.csv"})) == (
+        "report.measured is the text 'run.csv', not a list; write [{file: ...}]."
+    )
 
 
 def test_repeated_value():

@@ -269,6 +269,19 @@ def test_on_a_finer_mesh_contacts_begin_anew(record):
     assert len(crumpled.refined().problem().state[-1]) == 0
 
 
+def test_a_foil_that_touches_nothing_is_recorded_and_read_back(tmp_path):
+    part = {"kind": "barrier", "friction": MU, "ring_planes": True}
+    config = study_with(contact=part, sweep={"thickness_um": [500], "reference_height_mm": [140]})
+    path = tmp_path / "crumple.nc"
+    crumple_job(config.crumple_task(config.cells()[0]), path)
+    values, attributes = read_record(path)
+    assert attributes["status"] == "converged", attributes["message"]
+    assert values["contact_pairs"] == values["contact_friction_work"] == 0
+    assert np.isnan(values["contact_friction_slipping_share"])
+    problem = Crumpled.recorded(path).problem()
+    assert [len(state) for state in problem.state[-2:]] == [0, 0]
+
+
 def test_without_friction_there_is_no_such_term():
     section = flattened()[0].section
     assert [type(term) for term in BarrierContact().terms(section)] == [SelfContact]

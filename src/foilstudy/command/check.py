@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from foilstudy.base.numerals import duration, plural, times
 
 from .options import Cores, read_study
+from .run import study_folder
 
 if TYPE_CHECKING:
     from foilstudy.config import StudyConfig
@@ -41,11 +42,13 @@ def check(file: Path, /, *, cores: Cores = 2) -> None:
         YAML file of the study.
     """
     from foilstudy.config.slips import known_to_fail, likely_slips, unresolved
-    from foilstudy.present.measured_files import measured_of
     from foilstudy.study.sweep.expected import costly, expected
 
     study = read_study(file)
-    measured_of(study)
+    if study.report.measured:
+        from foilstudy.present.measured_files import measured_of  # which loads netCDF4
+
+        measured_of(study, study_folder())
     cost = expected(study)
     lines = [f"{file}: no problem; results go to results/{study.study.name}.", ""]
     lines += (f"{name:10} {text}" for name, text in _resolved(study))

@@ -45,4 +45,6 @@ def departures(content: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
         reach = contact.get("reach_mm")
         planes = ", and the planes of the rings" if contact.get("ring_planes") else ""
         words = "up to 1 mm" if reach is None else f"{reach:g} mm"
-        yield "contact", f"{contact['kind']} of {words} between parts of the foil{planes}"
+        friction = contact.get("friction", 0.0)
+        rubs = f", friction of {friction:g}" if friction else ""
+        yield "contact", f"{contact['kind']} of {words} between parts of the foil{planes}{rubs}"

@@ -637,8 +637,8 @@ class MeasuredRun(Section):
 
     file: str = unit_field(
         "text",
-        "CSV, MAT or Universal File as for `foilstudy compare`, with its units; from the folder in "
-        "which the study is run.",
+        "CSV, MAT or Universal File as for `foilstudy compare`, with its units; a relative path is "
+        "from the folder with the Snakefile.",
         **TEXT,
     )
     thickness_um: float | None = unit_field(

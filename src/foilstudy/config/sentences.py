@@ -59,7 +59,7 @@ def _sentence(kind: str, loc: tuple[str | int, ...], value: Any, ctx: dict[str, 
             return f"{path} has no keys; write some under it, indented: {keys}."
         return f"{path} is {describe(value)}, not a section; write keys under it: {keys}."
     if kind == "tuple_type":
-        return f"{path} is {describe(value)}, not a list; write [{_example(value, unit)}]."
+        return f"{path} is {describe(value)}, not a list; write [{_example(value, unit, loc)}]."
     if kind == "too_short":
         return f"{path} is empty; give at least one value{_in(unit)}."
     if kind == "finite_number":
@@ -186,8 +186,11 @@ def _number_remedy(value: Any, unit: str) -> str:
     return f"give a number{_in(unit)}"
 
 
-def _example(value: Any, unit: str) -> str:
-    """What a list might hold; of numbers, unless it is one of choices."""
+def _example(value: Any, unit: str, loc: tuple[str | int, ...]) -> str:
+    """What a list might hold; of numbers, unless it is one of mappings or of choices."""
+    model = StudyConfig.sections().get(str(loc[0]))
+    if item := model and _item(model, (*loc, 0)):
+        return f"{{{next(iter(item.model_fields))}: ...}}"
     if isinstance(value, int | float | str):
         return f"{value}"
     return "" if "choice" in unit else "50, 130"

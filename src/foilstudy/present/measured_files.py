@@ -74,8 +74,8 @@ class MeasuredFile:
         return Comparison.of(response, simulated(cube, self.configuration))
 
 
-def measured_of(study: StudyConfig) -> tuple[MeasuredFile, ...]:
-    """The measurements that a configuration names.
+def measured_of(study: StudyConfig, folder: Path = Path()) -> tuple[MeasuredFile, ...]:
+    """The measurements that a configuration names, with paths from the folder of its run.
 
     Raises
     ------
@@ -85,7 +85,7 @@ def measured_of(study: StudyConfig) -> tuple[MeasuredFile, ...]:
     found = []
     for i, run in enumerate(study.report.measured):
         values = run.model_dump()
-        file = MeasuredFile.of(Path(values.pop("file")), **values)
+        file = MeasuredFile.of(folder / values.pop("file"), **values)
         try:
             read_response(file.path, file.function)
         except Refusal as problem:

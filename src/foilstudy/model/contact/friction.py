@@ -231,7 +231,7 @@ class Friction:
         """See `solve.problem.Lasting`."""
         of, vectors = state.contacts, state.stretched - state.slipped
         parts = of.stencils, of.sides, of.weights, of.direction, of.force[:, None], vectors
-        arms = state.arms.reshape(len(state), -1)
+        arms = state.arms.reshape(len(state), 3 * sliding.POINTS)
         return {
             f"{self._name}_contacts": np.concatenate([*parts, arms], axis=1),
             f"{self._name}_work": np.float64(state.spent),
