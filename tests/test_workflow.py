@@ -220,9 +220,10 @@ def test_a_spoilt_record_is_repaired_by_the_same_command(finished):
     assert run.returncode == 0, run.stderr
     assert "small: crumple.nc cannot be read as a record" in run.stdout + run.stderr
     # a run begins with what it chose, and why, and with what it costs
-    told = re.search(
-        r"^Accuracy standard, overruled by .*\n  500 um: .*\n  about .*$", run.stderr, re.M
+    lines = (
+        r"^Accuracy standard, overruled by .*\n  500 um: .*\n  mesh.element_size_mm .*\n  about .*$"
     )
+    told = re.search(lines, run.stderr, re.M)
     assert "elements of 18 mm (as given), 100 steps of ramp" in told[0]
     assert told[0].endswith("of processor time for the whole study")
     values, _ = read_record(record)

@@ -187,8 +187,7 @@ def _summary(cost: Expected, cores: int) -> Iterator[str]:
     yield (
         f"About {duration(cost.processor_seconds, 2)} of processor time, "
         f"{duration(cost.wall_seconds(cores), 2)} on {plural(cores, 'free core')}; of the "
-        "realisations measured, on two kinds of processor, nine of ten kept within a factor of "
-        f"{SPREAD:g}."
+        f"realisations measured, nine of ten kept within a factor of {SPREAD:g}."
     )
     yield (
         f"About {cost.peak_memory_mb / 1000:.1f} GB for the largest job, "

@@ -36,7 +36,7 @@ def joined(band: Crumpled, whole: Foil) -> Crumpled:
         for name, value in band.problem().recorded().items()
     }
     shape = replace(band, foil=whole, patch=of_whole, points=points, reference=reference)
-    return shape._remembering(values)
+    return shape._remembering(replace(shape, arrival=None).problem(), values)
 
 
 def _continued(points: np.ndarray, rows: int, size: float) -> np.ndarray:
