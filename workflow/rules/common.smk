@@ -12,7 +12,7 @@ from foilstudy.base.manifest import MANIFEST
 from foilstudy.base.numerals import duration
 from foilstudy.config import ConfigError, load_merged
 from foilstudy.config.chosen import choices
-from foilstudy.config.slips import likely_slips, unresolved
+from foilstudy.config.slips import likely_slips
 from foilstudy.present.figures import FIGURES
 from foilstudy.present.files import StudyFiles
 from foilstudy.present.measured_files import measured_of
@@ -186,8 +186,6 @@ def warn_of_slips():
     """Name what is possible but most likely not meant, as `foilstudy check` does."""
     for slip in [*likely_slips(STUDY), *costly(COST)]:
         logger.warning(f"Most likely a slip: {slip}")
-    for sentence in unresolved(STUDY):
-        logger.warning(sentence)
 
 
 def tell_choices():

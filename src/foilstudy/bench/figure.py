@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.ticker import MultipleLocator
 
+from foilstudy.base.numerals import plural
 from foilstudy.bench.comparison import Comparison, Simulated
 from foilstudy.plot import style
 from foilstudy.plot.save import save
@@ -54,7 +55,7 @@ def draw(comparison: Comparison, title: str):
     (colour,) = style.ordered_colours(1)
     turned = _Unwrapped.of(simulated)
     f, places = simulated.frequencies, measured.frequencies
-    name = f"simulated, {len(simulated.curves)} realisations: median, least to largest"
+    name = f"simulated, {plural(len(simulated.curves), 'realisation')}: median, least to largest"
     style.median_band(axes[0], f, np.abs(simulated.curves), colour, label=name)
     style.median_band(axes[1], f, turned.phase(f, simulated.curves), colour)
     rest = ~measured.trusted

@@ -206,10 +206,9 @@ def eigenfrequency_findings(law: pd.DataFrame, cube: xr.Dataset) -> list[str]:
     sentences = []
     spread = Spread.of(cube["first_eigenfrequency"])
     if spread:
-        sentences.append(
-            f"With both rings clamped the first eigenfrequency lies between "
-            f"{number(spread.lowest)} and {number(spread.highest)} Hz."
-        )
+        low, high = number(spread.lowest), number(spread.highest)
+        lies = f"is {low} Hz" if low == high else f"lies between {low} and {high} Hz"
+        sentences.append(f"With both rings clamped the first eigenfrequency {lies}.")
     exponents = []
     for row in law[law["exponent"].notna()].itertuples():
         exponent = Exponent(row.exponent, row.exponent_low, row.exponent_high)
