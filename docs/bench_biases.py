@@ -25,7 +25,7 @@ from foilstudy.pipeline.structures import stress_free_structure
 
 TABLE = Path(__file__).parents[1] / "results/bench/biases.csv"
 GAP = 0.13
-FOILS = [(t, h) for t in (130, 250, 500) for h in (135, 170, 250)]
+FOILS = [(t, h) for t in (50, 130, 250, 500) for h in (135, 170, 250)]
 SPRING = Spring(198.0, 2000.0, 50.0, 50.0, GAP)
 MOTIONS = {"axial": 2, "radial": 0}
 DISCREPANCY = 3.7
