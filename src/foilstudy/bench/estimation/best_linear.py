@@ -73,11 +73,24 @@ def measured_lines(
     Refusal
         If a channel is unsound, or the record does not repeat with the period.
     """
+    return sound_means(recording, periods, highest_hz).combined(
+        along(recording.channels, motion, gap_m)
+    )
+
+
+def sound_means(recording: Recording, periods: Periods, highest_hz: float) -> PeriodMeans:
+    """Lines of all channels of one recording.
+
+    Raises
+    ------
+    Refusal
+        If a channel is unsound, or the record does not repeat with the period.
+    """
     watched = Watched(recording)
     means = period_means(watched, periods, highest_hz)
     watched.require_sound()
     require_synchronous(means)
-    return means.combined(along(recording.channels, motion, gap_m))
+    return means
 
 
 def excited_lines(means: PeriodMeans, lines: np.ndarray) -> np.ndarray:

@@ -13,16 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from foilstudy.base.errors import Refusal
-from foilstudy.bench.estimation.best_linear import excited_lines
+from foilstudy.bench.estimation.best_linear import excited_lines, sound_means
 from foilstudy.bench.estimation.channels import across
 from foilstudy.bench.estimation.estimate import Estimate
-from foilstudy.bench.estimation.periods import (
-    PeriodMeans,
-    Periods,
-    period_means,
-    require_synchronous,
-)
-from foilstudy.bench.recording import Recording, Watched
+from foilstudy.bench.estimation.periods import PeriodMeans, Periods
+from foilstudy.bench.recording import Recording
 
 __all__ = ["TransferMatrix", "interface_lines", "transfer_matrix"]
 
@@ -70,11 +65,7 @@ def interface_lines(
     Refusal
         If a channel is unsound, or the record does not repeat with the period.
     """
-    watched = Watched(recording)
-    means = period_means(watched, periods, highest_hz)
-    watched.require_sound()
-    require_synchronous(means)
-    return means.combined(across(recording.channels, gap_m))
+    return sound_means(recording, periods, highest_hz).combined(across(recording.channels, gap_m))
 
 
 def transfer_matrix(runs: Sequence[PeriodMeans], lines: np.ndarray) -> TransferMatrix:
