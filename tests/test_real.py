@@ -14,12 +14,13 @@ from foilstudy.study.kernel.plan import Record
 from foilstudy.study.real import trial
 from foilstudy.study.real.figures import chart
 from foilstudy.study.real.laws import CENTRE, fit, found
-from foilstudy.study.real.plan import LADDER, STUDY
-from foilstudy.study.real.settings import FILE, Ladder
+from foilstudy.study.real.plan import STUDY
+from foilstudy.study.real.settings import FOLDER, Ladder, ladder
 from foilstudy.study.real.tables import laws, page, trials
 from foilstudy.study.settings import read_settings
 
 CASES = STUDY.parts[0].cases
+LADDER = ladder("real")
 BETA, GAMMA = -0.6, 1.5
 
 
@@ -113,17 +114,17 @@ def test_another_content_is_another_case():
 )
 def test_a_wrong_file_is_refused_in_a_sentence(tmp_path, old, new, words):
     path = tmp_path / "real.yaml"
-    path.write_text(FILE.read_text().replace(old, new, 1))
+    path.write_text((FOLDER / "real.yaml").read_text().replace(old, new, 1))
     with pytest.raises(ConfigError, match=words):
         read_settings(path, Ladder)
 
 
 def test_a_trial_is_a_study_of_one_foil(monkeypatch):
     coarse = {"mesh": {"element_size_mm": 18}, "relaxation": {"ramp_steps": 100}}
-    ladder = LADDER.model_copy(update={"sections": {**LADDER.sections, **coarse}})
-    monkeypatch.setattr(trial, "LADDER", ladder)
+    models = LADDER.model_copy(update={"sections": {**LADDER.sections, **coarse}})
+    monkeypatch.setattr(trial, "ladder", {"real": models}.get)
     case = replace(CASES[0], thickness_um=500, height_mm=150, seed=1)
-    result = trial.measure(case)
+    result = trial.measure(case, "real")
     assert result["status"] == "converged"
     assert np.shape(result["static_stiffness"]) == (2,)
     assert np.all(np.array(result["static_stiffness"]) > 0)

@@ -78,6 +78,39 @@ class MeanInterval:
         return n
 
 
+@dataclass(frozen=True)
+class Ratio:
+    """Ratio of the means of two independent samples, with its 95 % interval.
+
+    Attributes
+    ----------
+    value, low, high : float
+        NaN where they are not known.
+    """
+
+    value: float
+    low: float
+    high: float
+
+    @classmethod
+    def of(cls, mean: MeanInterval, beside: MeanInterval) -> Self:
+        """Student's interval of the difference of the logarithms of both means.
+
+        With the degrees of freedom for unequal variances (B. L. Welch, Biometrika 34, 1947).
+        """
+        from scipy.special import stdtrit
+
+        value = mean.mean / beside.mean
+        errors = np.array([each.cv**2 / each.n for each in (mean, beside) if each.n > 1])
+        if errors.size < 2:
+            return cls(value, math.nan, math.nan)
+        degrees = np.array([mean.n - 1, beside.n - 1])
+        total = float(errors.sum())
+        freedom = total**2 / float((errors**2 / degrees).sum()) if total else math.inf
+        half = float(stdtrit(freedom, 0.5 + CONFIDENCE / 2)) * math.sqrt(total)
+        return cls(value, value / math.exp(half), value * math.exp(half))
+
+
 def _log_half_width(cv: float, n: int) -> float:
     from scipy.special import stdtrit  # a tenth of a second, and most who import this ask nothing
 

@@ -18,6 +18,7 @@ MODULES = (
     "limits.measured",
     "limits.bounds",
     "real.plan",
+    "truth.plan",
     "specimen.plan",
     "amplitude.plan",
 )

@@ -14,7 +14,8 @@ from foilstudy.measure.stiffness.bounds import bound_of_any_shape
 from foilstudy.measure.stiffness.directional import DIRECTIONS
 from foilstudy.study.kernel.plan import Records
 from foilstudy.study.published import GAP_HEIGHT, foil
-from foilstudy.study.real.plan import LADDER, Trial
+from foilstudy.study.real.plan import NAME
+from foilstudy.study.real.settings import Trial, ladder
 
 STATES = {
     "stress-free": ("static_stiffness",),
@@ -96,8 +97,9 @@ def found(records: Records) -> Found:
 
 
 def _bounds() -> Iterator[Bounded]:
-    for thickness in LADDER.thickness_um:
-        for height in LADDER.reference_height_mm:
+    models = ladder(NAME)
+    for thickness in models.thickness_um:
+        for height in models.reference_height_mm:
             case = foil(thickness, height)
             for direction, bound in zip(DIRECTIONS, bound_of_any_shape(case)):
                 law = published().power_laws[direction]["experiment"].law
@@ -132,11 +134,11 @@ def _measured(direction: str) -> float:
 
 
 def _laws(results: dict[Trial, dict]) -> Iterator[Law]:
-    for step in LADDER.steps:
+    for step in ladder(NAME).steps:
         trials = {t: r for t, r in results.items() if t.step == step.name}
         for state, quantities in STATES.items():
             for k, direction in enumerate(DIRECTIONS):
-                values = {trial: _number(result, quantities, k) for trial, result in trials.items()}
+                values = {trial: number(result, quantities, k) for trial, result in trials.items()}
                 fitted = fit(values)
                 if fitted is not None:
                     level, *exponents = fitted
@@ -153,7 +155,8 @@ def _laws(results: dict[Trial, dict]) -> Iterator[Law]:
                     )
 
 
-def _number(result: dict, quantities: tuple[str, ...], k: int) -> float:
+def number(result: dict, quantities: tuple[str, ...], k: int) -> float:
+    """The first of some quantities that a result has, in one direction; NaN if it has none."""
     values = next((result[name] for name in quantities if name in result), None)
     return np.nan if values is None else float(np.asarray(values, float).ravel()[k])
 

@@ -2,55 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
-
 from foilstudy.study.kernel.plan import Lazy, Part, Study
-from foilstudy.study.real.settings import FILE, Ladder
-from foilstudy.study.settings import content_digest, read_settings
-
-
-@dataclass(frozen=True)
-class Trial:
-    """One foil by one model.
-
-    Attributes
-    ----------
-    step : str
-        Name of the model.
-    content : str
-        Digest of its sections: another content is another case.
-    thickness_um, height_mm, seed : int
-    """
-
-    step: str
-    content: str
-    thickness_um: int
-    height_mm: int
-    seed: int
-
-
-# an installed package has no workflow, and no models beside it
-LADDER: Ladder | None = read_settings(FILE, Ladder) if FILE.is_file() else None
-
-
-def _trials() -> Iterator[Trial]:
-    if LADDER is None:
-        return
-    for step in LADDER.steps:
-        content = content_digest(LADDER.sections_of(step.name))
-        for thickness in step.thickness_um or LADDER.thickness_um:
-            for height in LADDER.reference_height_mm:
-                for seed in range(LADDER.seeds):
-                    yield Trial(step.name, content, thickness, height, seed)
-
+from foilstudy.study.real.settings import trials
 
 _HERE = "foilstudy.study.real"
+NAME = "real"
+"""Of the study, and of the file of its models."""
 
 STUDY = Study(
-    name="real",
+    name=NAME,
     title="what separates simulation from measurement",
-    parts=(Part("trials", tuple(_trials()), Lazy(f"{_HERE}.trial:measure"), memory_mb=2000),),
+    parts=(Part("trials", trials(NAME), Lazy(f"{_HERE}.trial:measure", (NAME,)), memory_mb=2000),),
     findings=Lazy(f"{_HERE}.laws:found"),
     tables={
         "trials.csv": Lazy(f"{_HERE}.tables:trials"),

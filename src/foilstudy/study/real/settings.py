@@ -1,7 +1,13 @@
-"""The models of the real foil, as data: ``config/real.yaml``; cheap to import."""
+"""Models of the foil as data, such as those of ``config/real.yaml``, and trials of them.
+
+Cheap to import.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -9,12 +15,33 @@ import pydantic
 
 from foilstudy.config.sections import Section
 from foilstudy.config.sources import merged
+from foilstudy.study.settings import content_digest, read_settings
 
-FILE = Path(__file__).resolve().parents[4] / "config/real.yaml"
+FOLDER = Path(__file__).resolve().parents[4] / "config"
 """Beside the sources: a package without them has no workflow, either."""
 
 _List = {"strict": False}
 Sections = dict[str, dict[str, Any]]
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One foil by one model.
+
+    Attributes
+    ----------
+    step : str
+        Name of the model.
+    content : str
+        Digest of its sections: another content is another case.
+    thickness_um, height_mm, seed : int
+    """
+
+    step: str
+    content: str
+    thickness_um: int
+    height_mm: int
+    seed: int
 
 
 class Step(Section):
@@ -28,15 +55,22 @@ class Step(Section):
         The step whose sections it has besides its own.
     sections : mapping
         Of a study's configuration.
-    thickness_um : tuple of int or None
+    beside : str or None
+        The step above that it is held against, foil by foil, where a study does that.
+    thickness_um, reference_height_mm : tuple of int or None
         Of the foils that it is computed for; None for all.
+    seeds : int or None
+        Of them; None for as many as elsewhere.
     """
 
     name: str = pydantic.Field(pattern=r"^[A-Za-z0-9_]+$")
     words: str
     after: str | None = None
+    beside: str | None = None
     sections: Sections = {}
     thickness_um: tuple[int, ...] | None = pydantic.Field(None, **_List)
+    reference_height_mm: tuple[int, ...] | None = pydantic.Field(None, **_List)
+    seeds: int | None = pydantic.Field(None, ge=1)
 
 
 class Ladder(Section):
@@ -54,11 +88,11 @@ class Ladder(Section):
         for step in self.steps:
             if step.name in known:
                 raise ValueError(f"two steps are called {step.name!r}; rename one")
-            if step.after is not None and step.after not in known:
-                raise ValueError(
-                    f"step {step.name!r} comes after {step.after!r}, which is none of the steps "
-                    "above it"
-                )
+            for word, other in (("comes after", step.after), ("stands beside", step.beside)):
+                if other is not None and other not in known:
+                    raise ValueError(
+                        f"step {step.name!r} {word} {other!r}, which is none of the steps above it"
+                    )
             known.add(step.name)
         return self
 
@@ -67,3 +101,25 @@ class Ladder(Section):
         step = next(step for step in self.steps if step.name == name)
         inherited = self.sections if step.after is None else self.sections_of(step.after)
         return merged([inherited, step.sections])
+
+    def trials(self) -> Iterator[Trial]:
+        """Of every step, every foil."""
+        for step in self.steps:
+            content = content_digest(self.sections_of(step.name))
+            for thickness in step.thickness_um or self.thickness_um:
+                for height in step.reference_height_mm or self.reference_height_mm:
+                    for seed in range(step.seeds or self.seeds):
+                        yield Trial(step.name, content, thickness, height, seed)
+
+
+@cache
+def ladder(study: str) -> Ladder | None:
+    """Models of a side study; None in an installed package, which has no such file beside it."""
+    file = FOLDER / f"{study}.yaml"
+    return read_settings(file, Ladder) if file.is_file() else None
+
+
+def trials(study: str) -> tuple[Trial, ...]:
+    """All trials of a side study; none in an installed package."""
+    models = ladder(study)
+    return () if models is None else tuple(models.trials())

@@ -10,8 +10,7 @@ import numpy as np
 from foilstudy.base.record import read_record
 from foilstudy.config import load_config
 from foilstudy.config.sources import merged
-from foilstudy.study.real.plan import LADDER, Trial
-from foilstudy.study.real.settings import Sections
+from foilstudy.study.real.settings import Sections, Trial, ladder
 from foilstudy.study.sweep.crumple import crumple_job
 from foilstudy.study.sweep.respond import respond_job
 
@@ -19,8 +18,15 @@ _LARGEST = 64
 """Numbers of a quantity that is kept: stiffness of all kinds, no shapes and no histories."""
 
 
-def measure(trial: Trial) -> dict:
+def measure(trial: Trial, study: str) -> dict:
     """Crumple the foil and measure its stiffness, as in a study of its own.
+
+    Parameters
+    ----------
+    trial : Trial
+        One foil.
+    study : str
+        Side study whose models it is one of.
 
     Returns
     -------
@@ -28,12 +34,12 @@ def measure(trial: Trial) -> dict:
         ``status`` and ``message``, and by their names in the records all quantities of a few
         numbers.
     """
-    study = load_config(_configured(trial, LADDER.sections_of(trial.step)))
-    cell = study.cells()[trial.seed]
+    configured = load_config(_configured(trial, ladder(study).sections_of(trial.step)))
+    cell = configured.cells()[trial.seed]
     with tempfile.TemporaryDirectory() as folder:
         crumple, response = Path(folder) / "crumple.nc", Path(folder) / "response.nc"
-        crumple_job(study.crumple_task(cell), crumple)
-        respond_job(study.response_task(cell), crumple, response)
+        crumple_job(configured.crumple_task(cell), crumple)
+        respond_job(configured.response_task(cell), crumple, response)
         shape, _ = read_record(crumple)
         measured, outcome = read_record(response)
     values = {
