@@ -35,11 +35,21 @@ def outcome():
 
 
 @pytest.mark.parametrize("name", STEPS)
-def test_every_way_is_a_configuration_of_ten_seeds(name):
+def test_every_way_is_a_configuration(name):
     mine = [case for case in CASES if case.step == name]
+    seeds = STEPS[name].seeds or MODELS.seeds
     study = load_config(trial._configured(mine[-1], MODELS.sections_of(name)))
-    assert study.cells()[mine[-1].seed].seed == 9
-    assert len(mine) == 10 * len(STEPS[name].thickness_um or MODELS.thickness_um)
+    assert study.cells()[mine[-1].seed].seed == seeds - 1
+    assert len(mine) == seeds * len(STEPS[name].thickness_um or MODELS.thickness_um)
+
+
+@pytest.mark.parametrize("step", [s for s in STEPS.values() if s.beside], ids=lambda s: s.name)
+def test_what_it_stands_beside_has_its_foils(step):
+    foils = {
+        name: {(c.thickness_um, c.height_mm) for c in CASES if c.step == name}
+        for name in (step.name, step.beside)
+    }
+    assert foils[step.name] <= foils[step.beside]
 
 
 def test_a_ratio_of_means_is_found_with_its_interval(outcome):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from foilstudy.measure.stiffness.directional import DIRECTIONS
 from foilstudy.plot.style import PAGE_WIDTH, new_figure, styled, value_ticks
-from foilstudy.study.truth.influences import SHOWN, Found
+from foilstudy.study.truth.influences import SHOWN, Found, Influence
 
 _TICKS = (0.1, 0.2, 0.5, 1, 2, 5)
 _MARKS = {SHOWN[0]: ("s", "0.1", 0.15), SHOWN[1]: ("o", "0.55", -0.15)}
@@ -16,10 +16,7 @@ def chart(found: Found):
     """A panel for each direction, a line for each way that stands beside another."""
     words = {each.step: each.words for each in found.influences}
     ratios = [each for each in found.influences if each.ratio is not None]
-    lines = {
-        (e.step, e.thickness_um): f"{e.words},\n{e.thickness_um} µm, over {words[e.beside]}"
-        for e in ratios
-    }
+    lines = {_place(e): f"{e.words},\n{e.thickness_um} µm, over {words[e.beside]}" for e in ratios}
     places = {line: place for place, line in enumerate(lines)}
     figure = new_figure(PAGE_WIDTH, 1.2 + 0.5 * len(lines))
     panels = figure.subplots(1, len(DIRECTIONS), sharey=True)
@@ -29,7 +26,7 @@ def chart(found: Found):
             ratio = each.ratio
             panel.errorbar(
                 ratio.value,
-                places[each.step, each.thickness_um] - shift,
+                places[_place(each)] - shift,
                 xerr=[[ratio.value - ratio.low], [ratio.high - ratio.value]],
                 fmt=mark,
                 color=grey,
@@ -46,3 +43,7 @@ def chart(found: Found):
     known = dict(zip(labels, handles))
     figure.legend(known.values(), known, loc="outside lower center", ncols=len(known))
     return figure
+
+
+def _place(each: Influence) -> tuple[str, int, int]:
+    return each.step, each.thickness_um, each.height_mm

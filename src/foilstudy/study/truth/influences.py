@@ -12,7 +12,7 @@ from foilstudy.base.tables import markdown_table
 from foilstudy.measure.stiffness.directional import DIRECTIONS
 from foilstudy.study.kernel.plan import Records
 from foilstudy.study.real.laws import STATES, number
-from foilstudy.study.real.settings import Step, Trial, ladder
+from foilstudy.study.real.settings import Trial, ladder
 from foilstudy.study.truth.plan import NAME
 
 SHOWN = ("with its stresses", "stress-free")
@@ -27,7 +27,7 @@ class Influence:
     ----------
     step, words, beside : str
         Names of both, `words` for people; `beside` is empty for what others stand beside.
-    thickness_um : int
+    thickness_um, height_mm : int
     state, direction : str
     mean : MeanInterval
         Stiffness of the seeds, N/m.
@@ -39,6 +39,7 @@ class Influence:
     words: str
     beside: str
     thickness_um: int
+    height_mm: int
     state: str
     direction: str
     mean: MeanInterval
@@ -60,49 +61,40 @@ def found(records: Records) -> Found:
 
 
 def _influences(results: dict[Trial, dict]) -> Iterator[Influence]:
-    models = ladder(NAME)
-    for step in models.steps:
-        for thickness in step.thickness_um or models.thickness_um:
-            for state in SHOWN:
-                for k, direction in enumerate(DIRECTIONS):
-                    mean = _mean(results, step.name, thickness, state, k)
-                    yield Influence(
-                        step.name,
-                        step.words,
-                        step.beside or "",
-                        thickness,
-                        state,
-                        direction,
-                        mean,
-                        _ratio(mean, results, step, thickness, state, k),
-                    )
+    foils: dict[tuple[str, int, int], list[dict]] = {}
+    for trial, result in results.items():
+        foils.setdefault((trial.step, trial.thickness_um, trial.height_mm), []).append(result)
+    steps = {step.name: step for step in ladder(NAME).steps}
+    for (name, *foil), seeds in foils.items():
+        beside = steps[name].beside
+        for state in SHOWN:
+            for k, direction in enumerate(DIRECTIONS):
+                mean = _mean(seeds, state, k)
+                other = None if beside is None else _mean(foils[beside, *foil], state, k)
+                yield Influence(
+                    name,
+                    steps[name].words,
+                    beside or "",
+                    *foil,
+                    state,
+                    direction,
+                    mean,
+                    None if other is None else Ratio.of(mean, other),
+                )
 
 
-def _mean(results: dict[Trial, dict], step: str, thickness: int, state: str, k: int):
-    return MeanInterval.of(
-        [
-            number(result, STATES[state], k)
-            for trial, result in results.items()
-            if (trial.step, trial.thickness_um) == (step, thickness)
-        ]
-    )
-
-
-def _ratio(
-    mean: MeanInterval, results: dict[Trial, dict], step: Step, thickness: int, state: str, k: int
-) -> Ratio | None:
-    if step.beside is None:
-        return None
-    return Ratio.of(mean, _mean(results, step.beside, thickness, state, k))
+def _mean(seeds: list[dict], state: str, k: int) -> MeanInterval:
+    return MeanInterval.of([number(result, STATES[state], k) for result in seeds])
 
 
 def table(found: Found) -> list[dict]:
-    """A row for each way, thickness, state and direction."""
+    """A row for each way, foil, state and direction."""
     return [
         {
             "step": each.step,
             "beside": each.beside,
             "thickness_um": each.thickness_um,
+            "height_mm": each.height_mm,
             "state": each.state,
             "direction": each.direction,
             "seeds": each.mean.n,
@@ -119,21 +111,21 @@ def table(found: Found) -> list[dict]:
 
 
 def page(found: Found) -> str:
-    """The same for people: a row for each way and thickness."""
-    rows: dict[tuple[str, int], list[Influence]] = {}
+    """The same for people: a row for each way and foil."""
+    rows: dict[tuple[str, int, int], list[Influence]] = {}
     for each in found.influences:
-        rows.setdefault((each.step, each.thickness_um), []).append(each)
+        rows.setdefault((each.step, each.thickness_um, each.height_mm), []).append(each)
     words = {each.step: each.words for each in found.influences}
-    heads = ["way", "thickness, um", "beside"]
+    heads = ["way", "thickness, um", "height, mm", "beside"]
     heads += [f"{state}, {direction}, N/m" for state in SHOWN for direction in DIRECTIONS]
     body = [
         [
             words[step],
-            thickness,
+            *foil,
             words.get(cells[0].beside, ""),
             *(_cell(each) for each in cells),
         ]
-        for (step, thickness), cells in rows.items()
+        for (step, *foil), cells in rows.items()
     ]
     return markdown_table(heads, body)
 
