@@ -296,12 +296,6 @@ class StudyConfig(Section):
                 f"specimen.seam_width_mm is {self.specimen.seam_width_mm:g} mm, and the foil "
                 f"measures {around:.4g} mm around; give a seam that is narrower."
             )
-        if not self.specimen.even and self.material.law != "elastic":
-            yield (
-                f"material.law is {self.material.law}, which knows one thickness and one modulus; "
-                "remove specimen.seam_width_mm and specimen.thickness_deviation_percent, or set "
-                "material.law: elastic."
-            )
         if not self.specimen.even and "calculix" in self.export.formats:
             yield (
                 "export.formats has calculix, whose deck knows one thickness and one modulus; "

@@ -32,7 +32,11 @@ class Specimen(Section):
         "1", "Thickness of that strip over that of the foil.", 1.0, **_Factor
     )
     seam_modulus_factor: float = unit_field(
-        "1", "Young's modulus of that strip over that of the foil.", 1.0, **_Factor
+        "1",
+        "Young's modulus of that strip over that of the foil; its yield stress and hardening are "
+        "in the same proportion.",
+        1.0,
+        **_Factor,
     )
     thickness_deviation_percent: float = unit_field(
         "%",

@@ -32,7 +32,7 @@ class Seam:
     width : float
         m; zero for none.
     thickness_factor, modulus_factor : float
-        Of the foil's.
+        Of the foil's. Yield stress and hardening are in the proportion of the modulus.
     """
 
     width: float = 0.0
