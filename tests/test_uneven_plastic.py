@@ -1,6 +1,7 @@
 """Plastic foil with a seam or an uneven thickness: every element its own layers and stresses."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -128,6 +129,11 @@ def _like(shape, place):
     )
 
 
+def _rolled(curvature, s, z):
+    angle = curvature * z
+    return np.stack([s, np.sin(angle) / curvature, (1 - np.cos(angle)) / curvature])
+
+
 def test_moment_of_a_strip_of_each_thickness():
     """M over that of the elastic limit is 3/2 - 1/2 (k_y / k)^2, both by an element's thickness.
 
@@ -148,10 +154,7 @@ def test_moment_of_a_strip_of_each_thickness():
     elastic = moduli * modulus / (1 - nu**2) * own**3 / 12 * first
     state, heights = term.start(), term.heights[None, :, None] * factors[:, None]
     for curvature in np.linspace(0, 4, 81)[1:] * first[0, 2]:
-        bent = fitted_control_points(
-            patch, lambda s, z: np.stack([s, np.sin(curvature * z) / curvature,
-                                          (1 - np.cos(curvature * z)) / curvature])
-        )  # fmt: skip
+        bent = fitted_control_points(patch, partial(_rolled, curvature))
         state = term.evolved(bent, state)
         across = term.stresses(bent, state)[:, :, 1]
         moment = np.abs((across * heights).mean(axis=1)) * own

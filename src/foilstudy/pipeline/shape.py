@@ -56,7 +56,7 @@ class Shape:
         return Shell(section, self.element)
 
     def terms(self) -> tuple[Term, ...]:
-        """What the potential energy has beside that of the elastic shell: its law's, its weight, its clamps'."""
+        """What a problem has beside the elastic shell: of its law, its weight, its clamps."""
         section, specimen = self.stressed.section, self.foil.specimen
         terms = section.law.terms(self.stressed)
         if specimen.gravity:

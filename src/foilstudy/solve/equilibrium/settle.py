@@ -211,8 +211,10 @@ def settle(
         polished = replace(
             polished,
             residual=residual,
-            message=f"relative residual {max(residual, unheld):.1e} once the state had followed the "
-            "shape",
+            message=(
+                f"relative residual {max(residual, unheld):.1e} once the state had followed the "
+                "shape"
+            ),
         )
     return SettleResult(
         "not_converged", polished.message, points, polished.residual,
