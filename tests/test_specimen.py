@@ -203,12 +203,6 @@ def test_what_does_not_go_together_is_refused(specimen, method, words):
         uncrumpled(foil(specimen), MESH, None, method)
 
 
-def test_a_plastic_foil_is_even():
-    plastic = replace(foil(BOTH), material=replace(FEP, law="plastic"))
-    with pytest.raises(Refusal, match="one thickness"):
-        uncrumpled(plastic, MESH).problem()
-
-
 @pytest.mark.parametrize(
     "make",
     [
@@ -273,7 +267,6 @@ def test_constants_are_drawn_from_their_range_for_each_realisation():
         ({"specimen": {"seam_thickness_factor": 2.0}}, "no seam"),
         ({"specimen": {"seam_width_mm": 700.0}}, "narrower"),
         ({"specimen": {"youngs_modulus_range_mpa": [600, 400]}}, "rising"),
-        ({"specimen": {"seam_width_mm": 5.0}, "material": {"law": "plastic"}}, "law: elastic"),
         ({"specimen": {"ring_tilt_deg": 1.0}, "method": {"path": "newton"}}, "true rings"),
         ({"specimen": {"ring_ellipticity_mm": -60}}, "ring_ellipticity_mm bends rings"),
         (

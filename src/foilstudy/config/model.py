@@ -296,12 +296,6 @@ class StudyConfig(Section):
                 f"specimen.seam_width_mm is {self.specimen.seam_width_mm:g} mm, and the foil "
                 f"measures {around:.4g} mm around; give a seam that is narrower."
             )
-        if not self.specimen.even and self.material.law != "elastic":
-            yield (
-                f"material.law is {self.material.law}, which knows one thickness and one modulus; "
-                "remove specimen.seam_width_mm and specimen.thickness_deviation_percent, or set "
-                "material.law: elastic."
-            )
         if not self.specimen.even and "calculix" in self.export.formats:
             yield (
                 "export.formats has calculix, whose deck knows one thickness and one modulus; "
@@ -314,13 +308,23 @@ class StudyConfig(Section):
             )
         radius, gap = self.sheet.diameter_mm / 2e3, self.sheet.gap_height_mm / 1e3
         if reason := clamps_of(self.specimen).beyond(radius, gap):
-            key = "ring_ellipticity_mm" if reason.startswith("bends") else "ring_tilt_deg"
-            yield f"specimen.{key} {reason}."
+            keys = {"bends": "ring_ellipticity_mm", "lets": "clamp_slip_mm"}
+            yield f"specimen.{keys.get(reason.split()[0], 'ring_tilt_deg')} {reason}."
         if not (self.specimen.true or self.method.path in FROM_RINGS_OUT_OF_TRUE):
             yield (
                 f"method.path is {self.method.path}, which begins between true rings; remove "
                 "specimen.ring_ellipticity_mm and specimen.ring_tilt_deg, or set method.path: "
                 "relaxation."
+            )
+        if self.specimen.clamp_slip_mm and self.method.path not in FROM_RINGS_OUT_OF_TRUE:
+            yield (
+                f"method.path is {self.method.path}, which holds the edges of the foil; remove "
+                "specimen.clamp_slip_mm, or set method.path: relaxation."
+            )
+        if self.specimen.clamp_slip_mm and self.contact.ring_planes:
+            yield (
+                "contact.ring_planes stands on three points of each edge, which clamps that let "
+                "the foil slip move; remove it, or specimen.clamp_slip_mm."
             )
 
     def _contact_problems(self) -> Iterator[str]:
@@ -435,6 +439,7 @@ class StudyConfig(Section):
             or self.installation.waiting_hours > 0
             or self.contact.kind != "none"
             or self.specimen.gravity_m_s2 != 0
+            or self.specimen.clamp_slip_mm > 0
         )
 
     @property

@@ -20,8 +20,8 @@ _Factor = {"gt": 0, "le": FACTOR_MAX}
 class Specimen(Section):
     """What a real specimen has and the ideal one has not; without it, nothing.
 
-    A seam along the height, uneven thickness, rings out of true, weight, and constants of the
-    material that differ from one realisation to the next.
+    A seam along the height, uneven thickness, rings out of true, clamps that let it slip, weight,
+    and constants of the material that differ from one realisation to the next.
     """
 
     seam_width_mm: float = unit_field(
@@ -32,7 +32,11 @@ class Specimen(Section):
         "1", "Thickness of that strip over that of the foil.", 1.0, **_Factor
     )
     seam_modulus_factor: float = unit_field(
-        "1", "Young's modulus of that strip over that of the foil.", 1.0, **_Factor
+        "1",
+        "Young's modulus of that strip over that of the foil; its yield stress and hardening are "
+        "in the same proportion.",
+        1.0,
+        **_Factor,
     )
     thickness_deviation_percent: float = unit_field(
         "%",
@@ -54,6 +58,22 @@ class Specimen(Section):
     )
     ring_tilt_deg: float = unit_field(
         "deg", "Tilt of the top ring about y, from the beginning.", 0.0, ge=-10, le=10
+    )
+    clamp_slip_mm: float = unit_field(
+        "mm",
+        "As far as the foil may slip along itself, out of the clamps or into them; 0 if it is "
+        "held.",
+        0.0,
+        ge=0,
+        le=100,
+    )
+    clamp_grip_n_per_m: float = unit_field(
+        "N/m",
+        "Line force along the foil up to which clamps that let it slip hold it: friction times the "
+        "tension of the band over the radius.",
+        Clamps.grip,
+        ge=0,
+        le=1e6,
     )
     gravity_m_s2: float = unit_field(
         "m/s2",
@@ -84,6 +104,11 @@ class Specimen(Section):
             for name in ("seam_thickness_factor", "seam_modulus_factor")
             if getattr(self, name) != 1 and not self.seam_width_mm
         ]
+        if self.clamp_grip_n_per_m != Clamps.grip and not self.clamp_slip_mm:
+            problems.append(
+                f"specimen.clamp_grip_n_per_m is {self.clamp_grip_n_per_m:g}, but nothing slips; "
+                "give specimen.clamp_slip_mm, or remove it."
+            )
         for name in ("youngs_modulus_range_mpa", "yield_stress_range_mpa"):
             drawn = getattr(self, name)
             if drawn is not None and not drawn[0] < drawn[1]:
@@ -110,4 +135,9 @@ class Specimen(Section):
 
 def clamps_of(section: Specimen) -> Clamps:
     """SI clamps."""
-    return Clamps(section.ring_ellipticity_mm * 1e-3, math.radians(section.ring_tilt_deg))
+    return Clamps(
+        section.ring_ellipticity_mm * 1e-3,
+        math.radians(section.ring_tilt_deg),
+        section.clamp_slip_mm * 1e-3,
+        section.clamp_grip_n_per_m,
+    )

@@ -91,8 +91,9 @@ def without_imperfection(start: Crumpled) -> Crumpled:
     moves = isinstance(path, RelaxationPath) and not isinstance(path, InstallationPath)
     if not moves or start.problem().has_memory:
         raise Refusal(
-            "imperfection.removal: after_buckling needs a foil that is elastic and relaxed; set "
-            "method.path: relaxation and material.law: elastic, or leave it out."
+            "imperfection.removal: after_buckling needs a foil that is elastic and relaxed, in "
+            "clamps that hold; set method.path: relaxation and material.law: elastic, and no "
+            "slip, or leave it out."
         )
     strain = foil.thickness / (foil.diameter / 2) / sqrt(3 * (1 - foil.material.poisson_ratio**2))
     first = min(_BUCKLED * strain * foil.reference_height, foil.shortening / 2)
@@ -137,25 +138,36 @@ def uncrumpled(
         imperfection or Imperfection(),
         method or Method.following(foil),
     )
-    if not (foil.specimen.clamps.true or isinstance(recipe.method.path, RelaxationPath)):
+    clamps, path = foil.specimen.clamps, recipe.method.path
+    if not (clamps.true or isinstance(path, RelaxationPath)):
         raise Refusal(
-            f"the path {recipe.method.path.kind} begins in equilibrium, between true rings; use "
-            "relaxation, or leave out ellipticity and tilt."
+            f"the path {path.kind} begins in equilibrium, between true rings; use relaxation, or "
+            "leave out ellipticity and tilt."
         )
-    if reason := foil.specimen.clamps.beyond(foil.diameter / 2, foil.gap_height):
+    if clamps.slip and not isinstance(path, RelaxationPath):
+        raise Refusal(
+            f"the path {path.kind} holds the edges of the foil; use relaxation, or leave out the "
+            "slip of the clamps."
+        )
+    if reason := clamps.beyond(foil.diameter / 2, foil.gap_height):
         raise Refusal(f"the clamping {reason}.")
     if recipe.method.waiting:
         refuse_rest(foil, recipe.method.touches)
     if recipe.method.touches:
-        _see_that_contact_is_kept(recipe)
+        _see_that_contact_is_kept(foil, recipe)
     patch = recipe.mesh.of_ramp().patch(foil)
     reference = imperfect_cylinder(patch, foil, recipe.imperfection)
     element = recipe.mesh.element_at_work()
     return Crumpled(foil, patch, reference, reference, element, recipe)
 
 
-def _see_that_contact_is_kept(recipe: Recipe) -> None:
+def _see_that_contact_is_kept(foil: Foil, recipe: Recipe) -> None:
     path = recipe.method.path
+    if foil.specimen.clamps.slip and getattr(recipe.method.contact, "ring_planes", False):
+        raise Refusal(
+            "the planes of the rings go through three points of the foil's edge, which a clamp "
+            "that lets it slip moves; leave out contact.ring_planes or the slip of the clamps."
+        )
     refuse_removal(recipe.imperfection, "a foil whose parts touch")
     if recipe.mesh.ramp_coarsenings:
         raise Refusal(

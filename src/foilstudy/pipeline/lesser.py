@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from foilstudy.base.errors import Refusal
 from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.model.imperfections.cylinder import deviation
 from foilstudy.model.shell.elements import LESSER_MODELS
@@ -31,6 +32,8 @@ def lesser_cylinder(
         As `uncrumpled`; if there is no such model.
     """
     foil.specimen.require_even(f"the model {model}")
+    if foil.specimen.clamps.slip:
+        raise Refusal(f"the model {model} knows no clamps that let it slip; leave out their slip.")
     start = replace(uncrumpled(foil, mesh, imperfection, method), element=LESSER_MODELS[model]())
     if model != "mass_spring":
         return start

@@ -18,6 +18,7 @@ from foilstudy.model.shell.shell import Energies, Shell
 from foilstudy.model.specimen.clamps import clamped_shape
 from foilstudy.model.specimen.variation import variation_of
 from foilstudy.model.specimen.weight import weight_of
+from foilstudy.model.supports.grip import Grip
 from foilstudy.model.supports.loads import Loading
 from foilstudy.solve.problem import Problem, Term
 
@@ -55,11 +56,13 @@ class Shape:
         return Shell(section, self.element)
 
     def terms(self) -> tuple[Term, ...]:
-        """What the potential energy has beside that of the elastic shell: its law's, its weight."""
+        """What a problem has beside the elastic shell: of its law, its weight, its clamps."""
         section, specimen = self.stressed.section, self.foil.specimen
         terms = section.law.terms(self.stressed)
         if specimen.gravity:
             terms += (Loading(weight_of(section, specimen.gravity)),)
+        if (clamps := specimen.clamps).slip:
+            terms += (Grip(self.stressed, clamps.slip, clamps.grip),)
         return terms
 
     def problem(self) -> Problem:

@@ -21,7 +21,7 @@ from foilstudy.model.patch import RING_ROWS, Patch
 from foilstudy.model.shell.held import held_blocks
 from foilstudy.model.shell.shell import Shell
 
-__all__ = ["Following", "Joint", "Lagging", "Lasting", "Problem", "Telling", "Term"]
+__all__ = ["Following", "GivingWay", "Joint", "Lagging", "Lasting", "Problem", "Telling", "Term"]
 
 
 class Term(Protocol):
@@ -113,6 +113,19 @@ class Lagging(Following, Protocol):
 
     def led(self, points: np.ndarray, state: Any) -> Any:
         """State that a shape leads to within the step."""
+        ...
+
+
+@runtime_checkable
+class GivingWay(Term, Protocol):
+    """A support of the rings' own control points that does not hold whatever pulls at them."""
+
+    def given_way(self, points: np.ndarray, force: np.ndarray, state: Any) -> Any:
+        """Move control points of the rings where the force on them is too large; the state then."""
+        ...
+
+    def unheld(self, points: np.ndarray, force: np.ndarray, state: Any) -> float:
+        """Norm of the forces by which it is too large, N."""
         ...
 
 
@@ -271,6 +284,25 @@ class Problem:
         owned = RING_ROWS * 3 * self.patch.columns
         tangent = sum(others, start=self.shell.tangent(points, own))
         return tangent[owned:-owned, owned:-owned].tocsr()
+
+    @property
+    def gives_way(self) -> bool:
+        """Whether the rings do not hold whatever pulls at them."""
+        return any(isinstance(term, GivingWay) for term in self.terms)
+
+    def give_way(self, points: np.ndarray, force: np.ndarray) -> None:
+        """Let the rings give way to the force on them, and their control points move."""
+        self.state = tuple(
+            term.given_way(points, force, state) if isinstance(term, GivingWay) else state
+            for term, state in zip(self.terms, self.state, strict=True)
+        )
+
+    def unheld(self, points: np.ndarray, force: np.ndarray) -> float:
+        """Norm of the force on the rings that they do not hold, N."""
+        pairs = zip(self.terms, self.state, strict=True)
+        return sum(
+            (t.unheld(points, force, s) for t, s in pairs if isinstance(t, GivingWay)), start=0.0
+        )
 
     def numbers(self) -> dict[str, float]:
         """What terms say of their state and of the last shape, by the names of quantities."""

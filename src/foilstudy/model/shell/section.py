@@ -88,6 +88,11 @@ class Section:
         return self.thickness * self.variation.thickness
 
     @property
+    def volumes(self) -> np.ndarray:
+        """Of the elements, shape (elements_along, elements_around), m3."""
+        return self.areas * self.local_thickness
+
+    @property
     def thickest(self) -> float:
         """Largest thickness, m."""
         return float(np.max(self.local_thickness))

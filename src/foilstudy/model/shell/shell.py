@@ -12,7 +12,7 @@ from foilstudy.model.materials import Material
 from foilstudy.model.patch import Patch
 from foilstudy.model.shell.elements.corner import Corner
 from foilstudy.model.shell.elements.protocol import Element, ElementKernel
-from foilstudy.model.shell.elements.together import Together
+from foilstudy.model.shell.elements.together import kernel_of
 from foilstudy.model.shell.material.elastic import Elastic
 from foilstudy.model.shell.section import Section
 from foilstudy.model.shell.tangent import block_matrix
@@ -56,8 +56,7 @@ class Shell:
     @cached_property
     def _kernel(self) -> ElementKernel:
         """Made when it is needed: what a shell is relieved from is often not asked anything."""
-        kernels = [self.element.kernel(part) for part in self.section.even_parts()]
-        return kernels[0] if len(kernels) == 1 else Together(tuple(kernels))
+        return kernel_of(self.element, self.section)
 
     def __repr__(self) -> str:
         return f"<Shell: {self.section}, {self.element.name}>"

@@ -14,7 +14,8 @@ class Variation:
     Attributes
     ----------
     thickness, modulus : ndarray
-        Positive, but a modulus may be zero.
+        Positive, but a modulus may be zero. It is a factor on all stresses at given strains: what
+        yields does so at the same strains.
     """
 
     thickness: np.ndarray

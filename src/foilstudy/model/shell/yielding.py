@@ -66,6 +66,8 @@ def _corner_mean_metric(points: np.ndarray, patch: Patch) -> np.ndarray:
 
 def beyond_yield_share(sheet: Shell, points: np.ndarray) -> float:
     """Share of the stress-free area where a face exceeds the yield stress."""
-    areas = sheet.section.areas
-    beyond = von_mises_stress(sheet, points) > sheet.material.yield_stress
+    areas, limit = sheet.section.areas, sheet.material.yield_stress
+    if sheet.section.variation is not None:
+        limit = limit * sheet.section.variation.modulus
+    beyond = von_mises_stress(sheet, points) > limit
     return float(areas[beyond].sum() / areas.sum())

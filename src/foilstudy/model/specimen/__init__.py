@@ -21,6 +21,8 @@ TILT_MAX = 0.2
 """rad."""
 ELLIPTICITY_MAX = 0.2
 """Over the radius: beyond it a ring bent without stretching is no ellipse."""
+SLIP_MAX = 0.05
+"""Over the gap: what comes out of a clamp stands as straight as in it."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +34,7 @@ class Seam:
     width : float
         m; zero for none.
     thickness_factor, modulus_factor : float
-        Of the foil's.
+        Of the foil's. Yield stress and hardening are in the proportion of the modulus.
     """
 
     width: float = 0.0
@@ -73,7 +75,7 @@ class Unevenness:
 
 @dataclass(frozen=True)
 class Clamps:
-    """Rings out of true, from before the foil is pushed together.
+    """Rings out of true, from before the foil is pushed together, and clamps that let it slip.
 
     Attributes
     ----------
@@ -81,12 +83,21 @@ class Clamps:
         By how much both rings are wider along x, and narrower along y, than their mean radius, m.
     tilt : float
         Of the top ring about y, rad.
+    slip : float
+        As far as the foil may slip along itself, out of a clamp or into it, m; with zero it is
+        held.
+    grip : float
+        Line force along the foil that a clamp that lets slip bears without, N/m.
     """
 
     ellipticity: float = 0.0
     tilt: float = 0.0
+    slip: float = 0.0
+    grip: float = 1000.0
 
     def __post_init__(self):
+        require_number("slip in a clamp", self.slip, "m", least=0)
+        require_number("grip of a clamp", self.grip, "N/m", least=0)
         require_number("ellipticity of a ring", self.ellipticity, "m")
         require_number("tilt of a ring", self.tilt, "rad", least=-TILT_MAX, most=TILT_MAX)
 
@@ -102,6 +113,11 @@ class Clamps:
             return (
                 f"bends rings of a radius of {1e3 * radius:.4g} mm by "
                 f"{1e3 * abs(self.ellipticity):.4g} mm; keep it to {1e3 * most:.3g} mm"
+            )
+        if self.slip > SLIP_MAX * gap:
+            return (
+                f"lets the foil slip by {1e3 * self.slip:.3g} mm, which is much of a gap of "
+                f"{1e3 * gap:.4g} mm; keep it to {1e3 * SLIP_MAX * gap:.3g} mm"
             )
         lower = (radius + abs(self.ellipticity)) * math.sin(abs(self.tilt))
         if gap - lower < GAP_MIN * gap:

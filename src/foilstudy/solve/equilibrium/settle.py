@@ -202,7 +202,8 @@ def settle(
                 break
             continue
         residual = _committed(problem, points, polished.residual)
-        if residual <= options.residual_tolerance:
+        unheld = _unheld(problem, points)
+        if residual <= options.residual_tolerance and unheld <= options.switch_residual:
             return SettleResult(
                 "converged", polished.message, points, residual, polished.negative_eigenvalues,
                 steps, hessians, newton_steps, motion.shortened_steps,
@@ -210,7 +211,10 @@ def settle(
         polished = replace(
             polished,
             residual=residual,
-            message=f"relative residual {residual:.1e} once the state had followed the shape",
+            message=(
+                f"relative residual {max(residual, unheld):.1e} once the state had followed the "
+                "shape"
+            ),
         )
     return SettleResult(
         "not_converged", polished.message, points, polished.residual,
@@ -226,6 +230,16 @@ def _committed(problem: Problem, points: np.ndarray, residual: float) -> float:
     held = HeldSheet(problem, points)
     _, gradient = held.value_and_gradient(held.unknowns(points))
     return relative_residual(float(np.linalg.norm(gradient)), held.ring_force)
+
+
+def _unheld(problem: Problem, points: np.ndarray) -> float:
+    """What the rings do not hold of the force on them, relative to that; it is no free force."""
+    if not problem.gives_way:
+        return 0.0
+    force = np.empty_like(points)
+    problem.force(points, force)
+    rings = force[:, :RING_ROWS], force[:, -RING_ROWS:]
+    return relative_residual(problem.unheld(points, force), float(np.linalg.norm(np.stack(rings))))
 
 
 def minimised(

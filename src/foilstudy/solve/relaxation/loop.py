@@ -232,7 +232,7 @@ def relax(
             problem.gradient(points, force)
         work_rate = _product(velocity, force, RING_ROWS) - work_before
         if checked:
-            entry = recorder.record(step, force, energies, 0.5 * momentum_norm)
+            entry = recorder.record(step, points, force, energies, 0.5 * momentum_norm)
             finite = np.isfinite(energies.sum() + entry.kinetic_energy)
             if not finite or np.isnan(entry.residual):
                 status = "diverged"
@@ -256,7 +256,7 @@ def relax(
                 velocity, norm = _return(motion, momentum, force, halt), 0.0
         except SolveError as error:
             energies = problem.force(points, force)
-            recorder.record(step, force, energies, 0.5 * momentum_norm)
+            recorder.record(step, points, force, energies, 0.5 * momentum_norm)
             status, failure = "diverged", str(error)
             break
         work_before = _product(velocity, force, RING_ROWS)
@@ -266,6 +266,10 @@ def relax(
         _move(points, velocity, share, lowering, *free)
         if turned and step <= ramp.steps:
             turned.move(points, ramp.progress_at(step - 1), ramp.progress_at(step))
+        if problem.gives_way:
+            problem.give_way(points, force)
+            if turned:
+                turned.renew(points, ramp.progress_at(step))
         if problem.has_memory:
             problem.commit(points)
     result = recorder.result(status, step, points, rule, failure)
@@ -298,18 +302,19 @@ class _Entry:
 
 class _Recorder:
     def __init__(self, ramp: Ramp, problem: Problem, least_energy: float):
-        self._ramp, self._least_energy = ramp, least_energy
+        self._problem, self._ramp, self._least_energy = problem, ramp, least_energy
         self._energy_names = problem.energy_names
         self._of_shell = len(problem.shell.energy_names)
         self._rows: list[tuple] = []
         self._last: _Entry | None = None
 
-    def record(self, step, force, energies, kinetic) -> _Entry:
+    def record(self, step, points, force, energies, kinetic) -> _Entry:
         if self._rows and self._rows[-1][0] == step:
             return self._last
         free = force[:, RING_ROWS:-RING_ROWS]
         rings = np.sqrt(np.sum(force[:, :RING_ROWS] ** 2) + np.sum(force[:, -RING_ROWS:] ** 2))
-        residual = relative_residual(np.sqrt(np.sum(free**2)), rings)
+        unheld = self._problem.unheld(points, force)
+        residual = relative_residual(np.sqrt(np.sum(free**2) + unheld**2), rings)
         reaction = -float(np.sum(force[2, -RING_ROWS:]))
         self._rows.append(
             (step, -self._ramp.shortening_at(step), reaction, *energies, kinetic, residual)

@@ -35,12 +35,17 @@ class Turned:
 
     def __init__(self, turning: Turning, points: np.ndarray, share: np.ndarray):
         self._turning, self._share = turning, share[_FREE, None]
-        ring = points[:, _TOP]
-        self._arms = turning.start.straightened(ring - self._centre(ring))
+        self.renew(points, 0.0)
 
     @staticmethod
     def _centre(ring: np.ndarray) -> np.ndarray:
         return np.array([0.0, 0.0, ring[2].mean()]).reshape(3, 1, 1)
+
+    def renew(self, points: np.ndarray, progress: float) -> None:
+        """Take the ring as it is at a progress of the way, where its clamp has let it slip."""
+        ring = points[:, _TOP]
+        attitude = self._turning.start.towards(self._turning.end, progress)
+        self._arms = attitude.straightened(ring - self._centre(ring))
 
     def move(self, points: np.ndarray, before: float, after: float) -> None:
         """From one progress of the way, of 0 to 1, to the next; the axial motion has been made."""

@@ -33,6 +33,8 @@ def specimen_of(scene: str, seed: int) -> Specimen:
         "uneven": Specimen(unevenness=Unevenness(0.1, 0.03, seed)),
         "oval": Specimen(clamps=Clamps(ellipticity=2e-3)),
         "tilt": Specimen(clamps=Clamps(tilt=np.radians(1.0))),
+        "slip": Specimen(clamps=Clamps(slip=1e-3, grip=1000.0)),
+        "loose": Specimen(clamps=Clamps(slip=2e-3, grip=200.0)),
         "weight": Specimen(gravity=9.81),
     }[scene]
 

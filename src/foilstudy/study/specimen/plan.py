@@ -9,7 +9,7 @@ from foilstudy.study.kernel.plan import Lazy, Part, Study
 
 THICKNESS_UM, HEIGHT_MM, SIZE_MM = 500, 170, 5.0
 """Of all crumples; the drawn shapes have finer meshes."""
-SCENES = ("plain", "seam", "heavy_seam", "uneven", "oval", "tilt", "weight")
+SCENES = ("plain", "seam", "heavy_seam", "uneven", "oval", "tilt", "slip", "loose", "weight")
 SCENE_SEEDS = 6
 OVERLENGTHS_PERCENT = (3.8, 15.4, 30.8, 53.8, 92.3)
 """Of the published study."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -222,6 +222,16 @@ QUANTITIES: dict[str, Declared] = {
     "contact_shortened_steps": Declared(
         "1", "steps shortened lest parts of the foil cross", only="touching"
     ),
+    "clamp_slip_max": replace(
+        _length("farthest that the foil has slipped in a clamp, out or in"), only="slipping"
+    ),
+    "clamp_slip_mean": replace(
+        _length("mean around both clamps of what has come out of them"), only="slipping"
+    ),
+    "clamp_slipped_share": Declared(
+        "1", "share of both edges that has ever slipped", only="slipping"
+    ),
+    "clamp_work": Declared("J", "work used up by slipping in the clamps", only="slipping"),
     "broad_wave_share": Declared(
         "1", "share of the radial displacement that bulges or sways the cylinder as a whole"
     ),
@@ -283,6 +293,11 @@ QUANTITIES: dict[str, Declared] = {
         )
         for name in ("contact", "ring_plane")
     },
+    "clamp_slip": _record_only(
+        "m",
+        "what has come out of the bottom and of the top clamp at each column of control points",
+        ("ring", "column"),
+    ),
     "history_step": _record_only("1", "pseudo-time step", _HISTORY),
     "history_height": _record_only("m", "height between the rings", _HISTORY),
     "history_reaction_force": _record_only(

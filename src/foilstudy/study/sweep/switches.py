@@ -15,6 +15,7 @@ SWITCHES: dict[str, Callable[[StudyConfig], bool]] = {
     "swept": lambda study: bool(study.amplitude.directions),
     "touching": lambda study: study.contact.kind != "none",
     "rubbing": lambda study: study.contact.friction > 0,
+    "slipping": lambda study: study.specimen.clamp_slip_mm > 0,
     "retrying": lambda study: study.method.retries > 0,
 }
 """Whether a study has the quantities whose `Declared.only` is such a name."""

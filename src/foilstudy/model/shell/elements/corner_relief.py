@@ -101,7 +101,9 @@ def _inverses(laws: np.ndarray) -> np.ndarray:
         ],
         axis=1,
     )  # fmt: skip
-    return inverse / (c11 * inverse[:, 0] + c12 * inverse[:, 2] + c16 * inverse[:, 3])[:, None]
+    determinant = (c11 * inverse[:, 0] + c12 * inverse[:, 2] + c16 * inverse[:, 3])[:, None]
+    # a part of a section that varies is not everywhere: what has no stiffness is not moved
+    return np.divide(inverse, determinant, out=np.zeros_like(inverse), where=determinant != 0)
 
 
 @njit(cache=True, error_model="numpy", forceinline=True)

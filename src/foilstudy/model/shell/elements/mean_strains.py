@@ -38,7 +38,7 @@ class Inelastic:
         """By the elastic stiffness of a section."""
         c11, c22, c12, c16, c26, c66 = section.stiffness.transpose(1, 0, 2)
         stresses = np.empty_like(strains)
-        for first, factor in ((0, 1.0), (3, section.thickness**2 / 12)):
+        for first, factor in ((0, 1.0), (3, section.local_thickness**2 / 12)):
             e1, e2, e6 = strains[:, first : first + 3].transpose(1, 0, 2)
             stresses[:, first] = factor * (c11 * e1 + c12 * e2 + c16 * e6)
             stresses[:, first + 1] = factor * (c12 * e1 + c22 * e2 + c26 * e6)

@@ -3,6 +3,10 @@
 The layers stand in the middle of each element and see its mean strains. Their plastic strains take
 stress off the elastic shell; with them as the state, that is a term of the energy that is linear
 in the strains. What the strains of one element differ by stays elastic.
+
+Where the thickness varies, so do the heights of the layers. Where the modulus does, all stresses of
+an element are in that proportion, its yield stress and hardening with them: parts of an element
+that share their strains then yield together, and one that is covered in part needs no more state.
 """
 
 from __future__ import annotations
@@ -15,8 +19,8 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sparse
 
-from foilstudy.base.errors import Refusal
 from foilstudy.model.shell.elements.mean_strains import Inelastic
+from foilstudy.model.shell.elements.together import mean_strains_of, relief_of
 from foilstudy.model.shell.material.elastic import Elastic
 from foilstudy.model.shell.material.layers import Layers, PlasticState, differing
 from foilstudy.model.shell.material.return_map import Flow, cartesian_frame
@@ -79,18 +83,7 @@ class Plastic(Elastic):
         )
 
     def terms(self, shell: Any) -> tuple[PlasticTerm, ...]:
-        """See `Law`: the stress that plastic strains take off.
-
-        Raises
-        ------
-        Refusal
-            If thickness or modulus vary.
-        """
-        if shell.section.variation is not None:
-            raise Refusal(
-                "a plastic foil has one thickness and one modulus; leave out the seam and the "
-                "deviation of the thickness, or take an elastic foil."
-            )
+        """See `Law`: the stress that plastic strains take off."""
         return (PlasticTerm(shell, self),)
 
 
@@ -110,8 +103,8 @@ class PlasticTerm:
 
     def __init__(self, shell: Any, law: Plastic):
         self.law, self.shell, self._section = law, shell, shell.section
-        self._strains = shell.element.mean_strains(shell.section)
-        self._relief = shell.element.relief(shell.section)
+        self._strains = mean_strains_of(shell.element, shell.section)
+        self._relief = relief_of(shell.element, shell.section)
         self.heights = layer_heights(law.layers, self._section.thickness)
         # the last state, and strains and room before yield when its elements were looked at; the
         # state that the relief is of
@@ -120,7 +113,9 @@ class PlasticTerm:
 
     @cached_property
     def _frame(self) -> np.ndarray:
-        volumes = self._section.areas * self._section.thickness
+        volumes = self._section.volumes
+        if self._section.variation is not None:  # all stresses, and so all energies, follow it
+            volumes = volumes * self._section.variation.modulus
         return np.concatenate([cartesian_frame(self._section.forms), volumes[:, None]], axis=1)
 
     def start(self) -> PlasticState:
@@ -190,7 +185,7 @@ class PlasticTerm:
         """Write the force of what is elastic of the strains; its energies."""
         stale = differing(state, self._relieved)
         if len(stale):
-            self._relief.update(stale, state.strains_of(stale))
+            self._relief.update(stale, self._strains_of(state, stale))
         self._relieved = state
         return self._relief.force(points, out)
 
@@ -203,11 +198,31 @@ class PlasticTerm:
         return self._strains.tangent_blocks(points, self._inelastic(state))
 
     def _inelastic(self, state: PlasticState) -> Inelastic:
-        return Inelastic.of(self._section, state.strains)
+        strains = state.strains
+        if self._section.variation is not None:
+            strains[:, 3:] /= self._section.variation.thickness[:, None]
+        return Inelastic.of(self._section, strains)
+
+    def _strains_of(self, state: PlasticState, elements: np.ndarray) -> np.ndarray:
+        """Inelastic strains of some elements, shape (number, 6)."""
+        strains = state.strains_of(elements)
+        if self._section.variation is not None:
+            strains[:, 3:] /= self._section.variation.thickness.reshape(-1, 1)[elements]
+        return strains
+
+    def _layer_strains(self, points: np.ndarray) -> np.ndarray:
+        """Strains of a shape, curvatures as if all elements had the layers of `heights`.
+
+        In a thicker element all layers are further out in the same proportion.
+        """
+        strains = self._strains.strains(points)
+        if self._section.variation is not None:
+            strains[:, 3:] *= self._section.variation.thickness[:, None]
+        return strains
 
     def evolved(self, points: np.ndarray, state: PlasticState) -> PlasticState:
         """See `solve.problem.Term`: every layer back on its yield surface."""
-        strains = self._strains.strains(points)
+        strains = self._layer_strains(points)
         if self._looked is None:
             self._looked = None, np.zeros_like(strains), np.empty(state.slots.shape)
         last, seen, room = self._looked
@@ -221,7 +236,7 @@ class PlasticTerm:
 
         Shape (elements_along, layers, 3, elements_around).
         """
-        strains = self._strains.strains(points)
+        strains = self._layer_strains(points)
         elastic = np.stack(
             [self._turned(strains[:, :3] + z * strains[:, 3:]) for z in self.heights]
         )
@@ -230,6 +245,8 @@ class PlasticTerm:
         nu = made.poisson_ratio
         e1, e2, e6 = elastic.transpose(2, 0, 1, 3)
         plane = made.youngs_modulus / (1 - nu**2)
+        if self._section.variation is not None:
+            plane = plane * self._section.variation.modulus[:, None]
         return np.stack(
             [plane * (e1 + nu * e2), plane * (e2 + nu * e1), plane * 0.5 * (1 - nu) * e6], axis=2
         )
@@ -244,11 +261,13 @@ class PlasticTerm:
 
     def plastic_share(self, state: PlasticState) -> float:
         """Share of the volume that has yielded."""
-        return float(np.average((state.accumulated > 0).mean(axis=1), weights=self._frame[:, 6]))
+        yielded = (state.accumulated > 0).mean(axis=1)
+        return float(np.average(yielded, weights=self._section.volumes))
 
     def yielded_share(self, state: PlasticState) -> float:
         """Share of the stress-free area under which any layer has yielded."""
-        return float(np.average((state.accumulated > 0).any(axis=1), weights=self._frame[:, 6]))
+        yielded = (state.accumulated > 0).any(axis=1)
+        return float(np.average(yielded, weights=self._section.areas * self._section.thickness))
 
     def _turned(self, covariant: np.ndarray) -> np.ndarray:
         """Strains (elements_along, 3, elements_around) in Cartesian axes."""
