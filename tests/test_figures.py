@@ -126,6 +126,16 @@ def test_figure_of_a_single_realisation_shows_it_or_says_why_not(name):
     assert "nan" not in texts(figure).split()
 
 
+@pytest.mark.parametrize("shape", [(1, 3), (1, 4), (4, 1)], ids=str)
+@pytest.mark.parametrize("name", CUBE_FIGURES)
+def test_figure_of_one_row_of_cells_is_drawn(name, shape):
+    thicknesses, heights = (50.0, 130.0, 250.0, 500.0), (135.0, 150.0, 170.0, 250.0)
+    sweep = {"thickness_um": thicknesses[: shape[0]], "reference_height_mm": heights[: shape[1]]}
+    figure = FIGURES[name].draw(cube=make_cube(seeds=1, **sweep))
+    figure.canvas.draw()
+    assert "nan" not in texts(figure).split()
+
+
 @pytest.mark.parametrize("name", CUBE_FIGURES)
 def test_figure_of_a_study_without_a_usable_cell_says_so(name):
     cube = make_cube((500.0,), (170.0,), seeds=1, verdicts={(0, 0, 0): FAILED})

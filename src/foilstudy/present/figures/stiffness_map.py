@@ -67,7 +67,9 @@ def _means(ax, overlengths, thicknesses, grid, levels, norm) -> None:
         x, y, stiffness = _interpolated(overlengths, thicknesses, grid)
         ax.contourf(x, y, stiffness, levels=levels, norm=norm, cmap=_COLOUR_MAP)
     x, y = np.meshgrid(overlengths, thicknesses)
-    ax.scatter(x, y, c=grid, norm=norm, cmap=_COLOUR_MAP, s=42, edgecolor="white", lw=1, zorder=4)
+    # flat: a row of three or four would be taken for one colour
+    values = {"c": grid.ravel(), "norm": norm, "cmap": _COLOUR_MAP}
+    ax.scatter(x.ravel(), y.ravel(), **values, s=42, edgecolor="white", lw=1, zorder=4)
     failed = ~np.isfinite(grid)
     ax.plot(x[failed], y[failed], "x", color="0.5", ms=8)
 
