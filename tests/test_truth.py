@@ -13,7 +13,7 @@ from foilstudy.study.real import trial
 from foilstudy.study.real.settings import FOLDER, Ladder, ladder
 from foilstudy.study.settings import read_settings
 from foilstudy.study.truth.figures import chart
-from foilstudy.study.truth.influences import found, page, table
+from foilstudy.study.truth.influences import SHOWN, found, page, table
 from foilstudy.study.truth.plan import STUDY
 
 CASES = STUDY.parts[0].cases
@@ -61,6 +61,7 @@ def test_a_ratio_of_means_is_found_with_its_interval(outcome):
             assert each.ratio.low < 0.75 < each.ratio.high < 0.8
             assert each.mean.n == 10
     assert known["usual", 500, "with its stresses", "axial"].ratio is None
+    assert known["usual", 500, "with its stresses", "axial"].of == 10
     assert known["kinetic", 500, "stress-free", "axial"].ratio.value == 1
 
 
@@ -93,3 +94,16 @@ def test_what_stands_beside_nothing_known_is_refused(tmp_path):
     path.write_text(text)
     with pytest.raises(ConfigError, match="stands beside 'nothing', which is none of the steps"):
         read_settings(path, Ladder)
+
+
+def test_a_stiffness_that_is_not_positive_makes_no_ratio():
+    def turned(case):
+        result = record(case)
+        if case.step == "kinetic" and case.seed == 3:
+            return Record("trials", case, result.result | {"true_stiffness": [-1.0, 1.0]}, None)
+        return result
+
+    found_out = found({"trials": {case: turned(case) for case in CASES}})
+    kinetic = [e for e in found_out.influences if e.step == "kinetic" and e.state == SHOWN[0]]
+    assert [each.ratio is None for each in kinetic] == [True, False]
+    assert "not positive in 1 of 10" in page(found_out)

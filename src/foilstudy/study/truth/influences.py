@@ -30,9 +30,12 @@ class Influence:
     thickness_um, height_mm : int
     state, direction : str
     mean : MeanInterval
-        Stiffness of the seeds, N/m.
+        Stiffness of the seeds where it is positive, N/m.
+    of : int
+        All seeds.
     ratio : Ratio or None
-        Of that mean to the one beside it.
+        Of that mean to the one beside it; none where a seed has no positive stiffness, as the mean
+        of the others says nothing then.
     """
 
     step: str
@@ -43,6 +46,7 @@ class Influence:
     state: str
     direction: str
     mean: MeanInterval
+    of: int
     ratio: Ratio | None
 
 
@@ -71,6 +75,7 @@ def _influences(results: dict[Trial, dict]) -> Iterator[Influence]:
             for k, direction in enumerate(DIRECTIONS):
                 mean = _mean(seeds, state, k)
                 other = None if beside is None else _mean(foils[beside, *foil], state, k)
+                known = other is not None and mean.n == len(seeds)
                 yield Influence(
                     name,
                     steps[name].words,
@@ -79,7 +84,8 @@ def _influences(results: dict[Trial, dict]) -> Iterator[Influence]:
                     state,
                     direction,
                     mean,
-                    None if other is None else Ratio.of(mean, other),
+                    len(seeds),
+                    Ratio.of(mean, other) if known else None,
                 )
 
 
@@ -97,7 +103,8 @@ def table(found: Found) -> list[dict]:
             "height_mm": each.height_mm,
             "state": each.state,
             "direction": each.direction,
-            "seeds": each.mean.n,
+            "seeds": each.of,
+            "positive": each.mean.n,
             "mean_n_per_m": each.mean.mean,
             "low": each.mean.low,
             "high": each.mean.high,
@@ -116,12 +123,13 @@ def page(found: Found) -> str:
     for each in found.influences:
         rows.setdefault((each.step, each.thickness_um, each.height_mm), []).append(each)
     words = {each.step: each.words for each in found.influences}
-    heads = ["way", "thickness, um", "height, mm", "beside"]
+    heads = ["way", "thickness, um", "height, mm", "seeds", "beside"]
     heads += [f"{state}, {direction}, N/m" for state in SHOWN for direction in DIRECTIONS]
     body = [
         [
             words[step],
             *foil,
+            cells[0].of,
             words.get(cells[0].beside, ""),
             *(_cell(each) for each in cells),
         ]
@@ -131,8 +139,10 @@ def page(found: Found) -> str:
 
 
 def _cell(each: Influence) -> str:
-    mean = f"{each.mean.mean:.4g} ({each.mean.low:.4g} to {each.mean.high:.4g}; {each.mean.n})"
-    if each.ratio is None:
-        return mean
-    ratio = each.ratio
-    return f"{mean}: **{ratio.value:.2f}** ({ratio.low:.2f} to {ratio.high:.2f})"
+    mean, ratio = each.mean, each.ratio
+    if mean.n < each.of:
+        return f"not positive in {each.of - mean.n} of {each.of}"
+    words = f"{mean.mean:.4g} ({mean.low:.4g} to {mean.high:.4g})"
+    if ratio is None:
+        return words
+    return f"{words}: **{ratio.value:.2f}** ({ratio.low:.2f} to {ratio.high:.2f})"
