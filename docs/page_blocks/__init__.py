@@ -1,11 +1,12 @@
 """What stands in the blocks of numbers of the pages, see docs/page_numbers.py."""
 
-from page_blocks.laws import differences, dimensionless, headline, law, summary, trust
+from page_blocks.laws import differences, dimensionless, headline, law, summary, thin, trust
 from page_blocks.realisations import (
     costs,
     dynamics,
     eigenfrequency,
     explanation,
+    influences,
     shapes,
     steps,
     tradeoff,
@@ -20,7 +21,7 @@ BLOCKS = {
     for each in (
         headline, law, differences, dimensionless, summary, trust, beside, simulation, experiment,
         bound, prestress, variability, dynamics, eigenfrequency, shapes, steps, costs, tradeoff,
-        explanation,
+        explanation, influences, thin,
     )
 }  # fmt: skip
 """Functions of studies that yield lines, by the name of their block."""

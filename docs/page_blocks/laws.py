@@ -6,13 +6,21 @@ from collections.abc import Container, Iterator
 
 import numpy as np
 
+from foilstudy.base.confidence import MeanInterval
 from foilstudy.base.reference import published
 from foilstudy.present.comparison import studied_case
 from foilstudy.present.report.laws import SOURCES, Law
 from foilstudy.present.statistics.cells import good, relative_mesh_error
-from foilstudy.present.statistics.powerlaw import LIMIT, PLAIN, TRUSTED
+from foilstudy.present.statistics.powerlaw import (
+    LIMIT,
+    PLAIN,
+    TRUSTED,
+    fit_power_law,
+    law_samples,
+)
+from foilstudy.present.statistics.regression import LinearFit
 from foilstudy.present.statistics.trust import assess_trust
-from page_blocks.study import DIRECTIONS, Study, coefficient, displacement, listed, rows
+from page_blocks.study import DIRECTIONS, Study, coefficient, displacement, listed, rows, short
 
 NAMES = {
     TRUSTED: "mesh limit, trusted",
@@ -70,6 +78,42 @@ def _law_row(direction: str, words: str, each: Law) -> list[str]:
     coefficients = [coefficient(c) for c in (each.alpha, each.beta, each.gamma)]
     count = f"{each.n:.0f}" if np.isfinite(each.n) else ""
     return [direction, words, *coefficients, f"{each.r2:.3f}", count]
+
+
+def thin(study: Study, thinner: Study) -> Iterator[str]:
+    """Laws of a study, and with the foil of another one that it leaves out, on their own meshes.
+
+    And what the former says of the latter, beside what was measured.
+    """
+    left_out = [t for t in thinner.thicknesses if t not in study.thicknesses]
+    body, beside = [], []
+    for direction in DIRECTIONS:
+        of, others = (law_samples(each.cube, direction, PLAIN) for each in (study, thinner))
+        alone, together = fit_power_law(of), fit_power_law(of.with_those(others))
+        for law, thicknesses in (
+            (alone, study.thicknesses),
+            (together, sorted({*left_out, *study.thicknesses})),
+        ):
+            body.append([direction, f"{listed(thicknesses)} µm", *_fitted(law.fit)])
+        for overlength in thinner.overlengths:
+            mean = MeanInterval.of(others.value[others.overlength_percent == overlength])
+            said = float(alone.law.stiffness(overlength, left_out[0]))
+            value, low, high = (short(each, 3) for each in (mean.mean, mean.low, mean.high))
+            measured = f"{value} ({low} to {high})"
+            row = [short(overlength, 3), measured, short(said, 3), f"{mean.mean / said:.2f}"]
+            beside.append([direction, *row])
+    yield from rows(["", "law over", "α", "β, overlength", "γ, thickness", "R²", "n"], body)
+    yield ""
+    heads = ["", "overlength, %", f"{listed(left_out)} µm, N/m", "the law without it", "ratio"]
+    yield from rows(heads, beside)
+
+
+def _fitted(fit: LinearFit) -> list[str]:
+    coefficients = [
+        f"{fit.value[key]:.2f} ({fit.low[key]:.2f} to {fit.high[key]:.2f})"
+        for key in ("constant", "overlength", "thickness")
+    ]
+    return [*coefficients, f"{fit.r2:.3f}", f"{fit.n}"]
 
 
 def differences(study: Study) -> Iterator[str]:

@@ -153,3 +153,8 @@ def tradeoff(study: Study) -> Iterator[str]:
 def explanation(study: Study) -> Iterator[str]:
     """Laws of the models of the real foil, and the bounds."""
     yield from study.file("laws.md").read_text("utf-8").splitlines()
+
+
+def influences(study: Study) -> Iterator[str]:
+    """How far the true stiffness depends on the method."""
+    yield from study.file("influences.md").read_text("utf-8").splitlines()

@@ -107,8 +107,8 @@ def coefficient(coefficient: Exponent) -> str:
     return f"{coefficient.value:.2f}{coefficient.margin}".replace("−", "-")
 
 
-def short(value: float) -> str:
-    return f"{float(f'{value:.2g}'):g}"
+def short(value: float, digits: int = 2) -> str:
+    return f"{float(f'{value:.{digits}g}'):g}"
 
 
 def listed(values: list[int]) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 
 import numpy as np
 
@@ -32,6 +32,11 @@ class Samples:
         """Integer label of each sample's thickness and overlength, shape (n,)."""
         pairs = np.column_stack([self.thickness_um, self.overlength_percent])
         return np.unique(pairs, axis=0, return_inverse=True)[1].ravel()
+
+    def with_those(self, others: Samples) -> Samples:
+        """Return these samples and others."""
+        both = zip(astuple(self), astuple(others), strict=True)
+        return Samples(*(np.concatenate(pair) for pair in both))
 
     def at_thickness(self, thickness_um: float) -> Samples:
         """Return the samples of one thickness."""
