@@ -46,7 +46,11 @@ def results(tmp_path_factory):
         resolved[name] = STIFFER * resolved[name]
     make_study(folder, "resolved", resolved)
     make_study(folder, "thesis", make_cube(cv=ten_percent, case=COARSE))
-    for table in ("tradeoff/tradeoff.md", "real/laws.md"):
+    thin = make_cube((50.0,), (135.0, 150.0, 170.0), cv=ten_percent)
+    for name in ("static_stiffness", "static_stiffness_converged", "static_stiffness_mesh_error"):
+        thin[name] = 2 * STIFFER * thin[name]
+    make_study(folder, "resolved_thin", thin)
+    for table in ("tradeoff/tradeoff.md", "real/laws.md", "truth/influences.md"):
         (folder / table).parent.mkdir()
         (folder / table).write_text("| a | table |\n", "utf-8")
     return folder
@@ -126,6 +130,19 @@ def test_headline_is_the_law_of_the_first_study_with_the_others_beside_it(result
         levels = [float(row[1].split()[0]) for row in (mine[0], mine[3])]
         assert levels[0] - levels[1] == pytest.approx(np.log(STIFFER), abs=0.02)
     assert len(rows) == 12
+
+
+def test_thin_foil_stands_beside_the_law_that_leaves_it_out(results):
+    laws, beside = block("thin", *studies(results, "resolved", "resolved_thin")).split("\n\n")
+    rows = cells(laws)
+    assert [row[1] for row in rows] == 2 * ["130, 250, 500 µm", "50, 130, 250, 500 µm"]
+    assert [row[-1] for row in rows] == 2 * ["90", "108"]
+    for direction in DIRECTIONS:
+        alone, together = (float(row[4].split()[0]) for row in rows if row[0] == direction)
+        assert alone == pytest.approx(LAW[direction][2], abs=0.1)
+        assert together < alone - 0.2  # twice as stiff at the thin end
+    ratios = [float(row[4]) for row in cells(beside)]
+    assert ratios == pytest.approx(6 * [2.0], rel=0.25)
 
 
 def test_laws_of_a_whole_study_stand_on_the_mesh_of_the_crumple_and_with_stress(results):
