@@ -12,10 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foilstudy.model.shell.elements import sampled_kernel
+from foilstudy.model.shell.elements import mean_kernel, sampled_kernel
 from foilstudy.model.shell.elements.sampling import LAW_PAIRS, StrainSampling
 from foilstudy.model.shell.elements.sampling_tables import tables
-from foilstudy.model.shell.elements.watch import CornerWatch, EveryElement, Watch
 from foilstudy.model.shell.section import Section
 
 
@@ -77,18 +76,6 @@ class SampledMeanStrains:
         bending = weights @ (bent_rest[..., :3] - measure * bent[..., :3])
         return np.concatenate([membrane, bending], axis=2).transpose(0, 2, 1).copy()
 
-    def watch(self, forms: np.ndarray, farthest: float) -> Watch:
-        """Which elements have to be looked at; see `watch.Watch`.
-
-        Parameters
-        ----------
-        forms : ndarray, shape (elements or 1, 3, 3)
-            Matrices whose quadratic form is the square of how much a strain counts.
-        farthest : float
-            Distance of the outermost layer from the middle surface, m.
-        """
-        return EveryElement(self.strains)
-
     def force(self, points: np.ndarray, inelastic: Inelastic, out: np.ndarray) -> float:
         """Write the force, N, and return the work, J, of the stresses that the elements lack.
 
@@ -137,16 +124,21 @@ class CornerMeanStrains(SampledMeanStrains):
 
     def __init__(self, section: Section, sampling: StrainSampling):
         super().__init__(section, sampling)
+        patch = section.patch
         members = self._component.size
         rest = [self._samples[..., :members] @ self._mean.T, self._samples[..., members:]]
-        self._rest = np.concatenate(rest, axis=2)
-        self._watch = self.watch(np.eye(3)[None], 0.0)  # never noted: there is never room
+        self._rest = np.concatenate(rest, axis=2).transpose(0, 2, 1).copy()
+        self._spacings = (patch.size_around, patch.size_along)
 
     def strains(self, points: np.ndarray) -> np.ndarray:
         """See `SampledMeanStrains`."""
-        _, strains = self._watch.beyond(points)
-        return strains.reshape(*self._rest.shape[:2], 6).transpose(0, 2, 1).copy()
+        out = np.empty(self._section.stiffness.shape)
+        around = self._section.patch.elements_around
+        mean_kernel.strains(self._unrolled(points), around, self._spacings, self._rest, out)
+        return out
 
-    def watch(self, forms: np.ndarray, farthest: float) -> CornerWatch:
-        """See `SampledMeanStrains`."""
-        return CornerWatch(self._section.patch, self._rest, forms, farthest)
+    def _unrolled(self, points: np.ndarray) -> np.ndarray:
+        """Control points with the first columns again behind the last, on a closed patch."""
+        if not self._section.patch.periodic:
+            return np.ascontiguousarray(points)
+        return np.concatenate([points, points[..., : mean_kernel.PAD]], axis=2)

@@ -7,7 +7,6 @@ from typing import Protocol
 import numpy as np
 
 from foilstudy.model.shell.elements.mean_strains import Inelastic
-from foilstudy.model.shell.elements.watch import Watch
 from foilstudy.model.shell.section import Section
 
 
@@ -35,10 +34,6 @@ class MeanStrains(Protocol):
 
     def strains(self, points: np.ndarray) -> np.ndarray:
         """Membrane and bending strains, shape (elements_along, 6, elements_around), 1 and 1/m."""
-        ...
-
-    def watch(self, forms: np.ndarray, farthest: float) -> Watch:
-        """Which elements a law has to look at, by how much their strains count for it."""
         ...
 
     def force(self, points: np.ndarray, inelastic: Inelastic, out: np.ndarray) -> float:

@@ -12,11 +12,12 @@ from weakref import WeakSet, ref
 
 import numpy as np
 
-from foilstudy.model.shell.material.return_map import Flow, flow_on, sum_up
+from foilstudy.model.shell.material.return_map import LAYERS_MAX, Flow, flow_on, sum_up
 
 _SUMS = 9
-_ROOM = 2
-"""Free slots, for each element, that there are at least once unused ones have been sought."""
+_COLLECTED, _ROOM = 1, 2
+"""Slots taken, for each element, before unused ones are sought, and free ones that there are then
+at least. The fewer are taken, the more of them stay in the fast caches."""
 
 
 class Layers:
@@ -29,6 +30,11 @@ class Layers:
     heights : ndarray, shape (layers,)
         Above the middle surface, m.
     flow : Flow
+
+    Raises
+    ------
+    ValueError
+        If there are more than `return_map.LAYERS_MAX` layers.
 
     Attributes
     ----------
@@ -45,17 +51,14 @@ class Layers:
     """
 
     def __init__(self, frame: np.ndarray, heights: np.ndarray, flow: Flow):
-        self._heights, self._flow = heights, flow
-        self.made_of = frame, heights, flow
-        self._frame = np.ascontiguousarray(frame.transpose(0, 2, 1)).reshape(-1, frame.shape[1])
+        if heights.size > LAYERS_MAX:
+            raise ValueError(f"a foil has {LAYERS_MAX} layers at most, not {heights.size}")
+        self._frame, self._heights, self._flow = self.made_of = frame, heights, flow
         self.shape = frame.shape[0], frame.shape[2]
-        self._size = len(self._frame)
+        self._size = frame.shape[0] * frame.shape[2]
         self._states: WeakSet[PlasticState] = WeakSet()
         self.values, self.sums = np.zeros((1, 4, heights.size)), np.zeros((1, _SUMS))
-        # free slots, the last ones to be taken first; and the last state with the slots of the one
-        # before that it has not
-        self._free, self._number = np.empty(0, dtype=np.int64), 0
-        self._left: tuple[ref[PlasticState], np.ndarray] | None = None
+        self._free, self._taken = np.empty(0, dtype=np.int64), 0
         self._grow()
 
     def untouched(self) -> PlasticState:
@@ -67,51 +70,30 @@ class Layers:
         slots = np.zeros(self.shape, dtype=np.int64)
         yielded = np.any(values != 0, axis=(1, 2))
         self._collect()
-        self._number -= np.count_nonzero(yielded)
-        taken = self._free[self._number :][: np.count_nonzero(yielded)]
+        taken, self._free = np.split(self._free, [np.count_nonzero(yielded)])
+        self._taken = len(taken)
         slots[yielded] = taken
         self.values[taken] = values.transpose(0, 3, 2, 1)[yielded]
-        sum_up(
-            np.flatnonzero(yielded), self._frame, self._heights, self._flow, self.values,
-            slots.ravel(), self.sums,
-        )  # fmt: skip
+        sum_up(self.values, slots, self._heights, self._frame, self._flow, self.sums)
         return self._noted(slots)
 
     def flowed(
-        self, elements: np.ndarray, strains: np.ndarray, before: PlasticState
-    ) -> tuple[PlasticState, np.ndarray]:
-        """The state that strains of some elements lead to, and the room that these have then.
-
-        See `return_map.flow_on`.
-        """
-        self._let_go(before)
-        if self._number < len(elements):
+        self, strains: np.ndarray, before: PlasticState, seen: np.ndarray, room: np.ndarray
+    ) -> PlasticState:
+        """The state that strains lead to; see `return_map.flow_on`."""
+        if self._taken > _COLLECTED * self._size:
             self._collect()
-        slots, room = before.slots.copy(), np.empty(len(elements))
-        changed = np.empty(len(elements), dtype=np.int64)
+        slots, changed = before.slots.copy(), np.empty(self._size, dtype=np.int64)
         used = flow_on(
-            elements, strains, self._frame, self._heights, self._flow, self.values, self.sums,
-            room, slots.ravel(), self._free[: self._number], changed,
+            strains, self._frame, self._heights, self._flow, self.values, self.sums, seen, room,
+            slots, self._free, changed,
         )  # fmt: skip
         if not used:
-            return before, room
-        self._number -= used
-        changed = changed[:used]
+            return before
+        self._free, self._taken = self._free[used:], self._taken + used
         state = self._noted(slots)
-        state.since = ref(before), changed
-        self._left = ref(state), before.slots.ravel()[changed]
-        return state, room
-
-    def _let_go(self, state: PlasticState) -> None:
-        """Take back at once what the state before left, where no other state is known.
-
-        So the slots that are taken next are those that were used last, which are in the caches.
-        """
-        if self._left and self._left[0]() is state and len(self._states) == 1:
-            slots = self._left[1][self._left[1] > 0]
-            self._free[self._number : self._number + len(slots)] = slots
-            self._number += len(slots)
-            self._left = None
+        state.since = ref(before), changed[:used]
+        return state
 
     def _noted(self, slots: np.ndarray) -> PlasticState:
         state = PlasticState(self, slots)
@@ -124,21 +106,15 @@ class Layers:
         used[0] = True
         for state in self._states:
             used[state.slots] = True
-        self._note_free(np.flatnonzero(~used))
-        if self._number < _ROOM * self._size:
+        self._free, self._taken = np.flatnonzero(~used), 0
+        if len(self._free) < _ROOM * self._size:
             self._grow()
 
     def _grow(self) -> None:
         kept, more = len(self.values), _ROOM * self._size
         self.values = np.concatenate([self.values, np.empty((more, *self.values.shape[1:]))])
         self.sums = np.concatenate([self.sums, np.empty((more, _SUMS))])
-        self._note_free(np.append(self._free[: self._number], np.arange(kept, kept + more)))
-
-    def _note_free(self, slots: np.ndarray) -> None:
-        """With room for all that may come back."""
-        self._free, self._number = np.empty(len(self.values), dtype=np.int64), len(slots)
-        self._free[: len(slots)] = slots
-        self._left = None
+        self._free = np.concatenate([self._free, np.arange(kept, kept + more)])
 
 
 class PlasticState:

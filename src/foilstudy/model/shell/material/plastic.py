@@ -17,11 +17,9 @@ import scipy.sparse as sparse
 
 from foilstudy.base.errors import Refusal
 from foilstudy.model.shell.elements.mean_strains import Inelastic
-from foilstudy.model.shell.elements.protocol import Relief
-from foilstudy.model.shell.elements.watch import Watch
 from foilstudy.model.shell.material.elastic import Elastic
 from foilstudy.model.shell.material.layers import Layers, PlasticState, differing
-from foilstudy.model.shell.material.return_map import Flow, cartesian_frame, stress_forms
+from foilstudy.model.shell.material.return_map import Flow, cartesian_frame
 from foilstudy.model.shell.tangent import block_matrix
 
 LAYERS = 8
@@ -113,24 +111,17 @@ class PlasticTerm:
     def __init__(self, shell: Any, law: Plastic):
         self.law, self.shell, self._section = law, shell, shell.section
         self._strains = shell.element.mean_strains(shell.section)
+        self._relief = shell.element.relief(shell.section)
         self.heights = layer_heights(law.layers, self._section.thickness)
-        # the states that the watch and the relief are of
-        self._looked: PlasticState | None = None
+        # the last state, and strains and room before yield when its elements were looked at; the
+        # state that the relief is of
+        self._looked: tuple[PlasticState, np.ndarray, np.ndarray] | None = None
         self._relieved: PlasticState | None = None
 
     @cached_property
     def _frame(self) -> np.ndarray:
         volumes = self._section.areas * self._section.thickness
         return np.concatenate([cartesian_frame(self._section.forms), volumes[:, None]], axis=1)
-
-    @cached_property
-    def _relief(self) -> Relief | None:
-        return self.shell.element.relief(self._section)
-
-    @cached_property
-    def _watch(self) -> Watch:
-        frame = self._frame.transpose(0, 2, 1).reshape(-1, self._frame.shape[1])
-        return self._strains.watch(stress_forms(frame, self.law.flow), self.heights[-1])
 
     def start(self) -> PlasticState:
         """No plastic strain."""
@@ -216,11 +207,13 @@ class PlasticTerm:
 
     def evolved(self, points: np.ndarray, state: PlasticState) -> PlasticState:
         """See `solve.problem.Term`: every layer back on its yield surface."""
-        self._watch.forget(differing(state, self._looked))
-        elements, strains = self._watch.beyond(points)
-        after, room = state.foil.flowed(elements, strains, state)
-        self._watch.note(elements, room)
-        self._looked = after
+        strains = self._strains.strains(points)
+        if self._looked is None:
+            self._looked = None, np.zeros_like(strains), np.empty(state.slots.shape)
+        last, seen, room = self._looked
+        room.ravel()[differing(state, last)] = -np.inf  # to be looked at
+        after = state.foil.flowed(strains, state, seen, room)
+        self._looked = after, seen, room
         return after
 
     def stresses(self, points: np.ndarray, state: PlasticState) -> np.ndarray:

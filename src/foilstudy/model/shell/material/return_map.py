@@ -15,8 +15,8 @@ from numba import njit
 
 _ROUNDING = 1e-12
 """Relative; what has returned to the yield surface does not flow for less."""
-_LAST = 1e-13
-"""Of the multiplier: what the next step of Newton's method would be at most, once it is enough."""
+_LAST = 1e-6
+"""Of the multiplier: after a step of Newton's method that is less, the next would be rounding."""
 
 
 class Flow(NamedTuple):
@@ -64,38 +64,27 @@ def _excess(square, limit):
 
 
 @njit(cache=True, error_model="numpy", forceinline=True)
-def _pliancies(flow):
-    """What the multiplier is multiplied by, in the return of the sum and of the others."""
-    modulus, nu, _, _, kinematic = flow
-    back = kinematic * (2.0 / 3.0)
-    return modulus / (3.0 * (1.0 - nu)) + back, modulus / (1.0 + nu) + back
-
-
-@njit(cache=True, error_model="numpy", forceinline=True)
 def _newton(u, v, w, limit, g, flow):
-    """Newton's step of the multiplier: root of sqrt(3) / limit - slope g = 1 / sqrt(total)."""
-    a, b = _pliancies(flow)
-    inverse = 1.0 / (limit * (1.0 + a * g) * (1.0 + b * g))
-    target = np.sqrt(3.0) * inverse * (1.0 + a * g) * (1.0 + b * g)
-    slope = flow[3] * (2.0 / 3.0) * target
-    x, y = limit * (1.0 + b * g) * inverse, limit * (1.0 + a * g) * inverse
-    mean, deviation = u * u * (1.0 / 12.0) * x * x, (0.25 * v * v + w * w) * y * y
+    """Newton's step of the multiplier."""
+    modulus, nu, _, isotropic, kinematic = flow
+    back = kinematic * (2.0 / 3.0)
+    a, b = modulus / (3.0 * (1.0 - nu)) + back, modulus / (1.0 + nu) + back
+    target = np.sqrt(3.0) / limit
+    slope = isotropic * (2.0 / 3.0) * target
+    x, y = 1.0 / (1.0 + a * g), 1.0 / (1.0 + b * g)
+    mean, deviation = u * u / 12.0 * x * x, (0.25 * v * v + w * w) * y * y
     total = mean + deviation
-    root = np.sqrt(total)
-    rise = (mean * a * x + deviation * b * y) + slope * total * root
-    return ((target - slope * g) * root - 1.0) * total / rise
-
-
-@njit(cache=True, error_model="numpy", forceinline=True)
-def _goes_on(g, step, flow):
-    """Whether the next of Newton's steps, less than b step^2, would be more than rounding."""
-    return _pliancies(flow)[1] * step * step > _LAST * g
+    root = 1.0 / np.sqrt(total)
+    rise = root * (mean * a * x + deviation * b * y) / total + slope
+    return (target - slope * g - root) / rise
 
 
 @njit(cache=True, error_model="numpy", forceinline=True)
 def _flowed(u, v, w, g, flow):
     """Plastic strain increments (11, 22, 2 12) and that of the accumulated one, by multiplier."""
-    a, b = _pliancies(flow)
+    modulus, nu, _, _, kinematic = flow
+    back = kinematic * (2.0 / 3.0)
+    a, b = modulus / (3.0 * (1.0 - nu)) + back, modulus / (1.0 + nu) + back
     x, y = 1.0 / (1.0 + a * g), 1.0 / (1.0 + b * g)
     along, across = g * u * x / 6.0, 0.5 * g * v * y
     equivalent = np.sqrt(0.25 * u * u * x * x + 3.0 * (0.25 * v * v + w * w) * y * y)
@@ -119,281 +108,228 @@ def increment(strain, plastic, done, flow):
     if not _excess(_square(u, v, w), limit) > 0.0:
         return 0.0, 0.0, 0.0, 0.0
     g, step = 0.0, np.inf
-    while _goes_on(g, step, flow):
+    while step > _LAST * g:
         step = _newton(u, v, w, limit, g, flow)
         g += step
     return _flowed(u, v, w, g, flow)
 
 
-_BATCH = 64
-"""Elements whose layers flow together."""
-_DISTANCE = _BATCH + 8
-# Rows of a work array, a value of every element of a batch: membrane and bending strains in
-# Cartesian axes; the frame; what the layers add up to; least room, largest multiplier.
-_MEAN, _BENT, _FRAME, _SUM, _LEAST, _MOST, _OF_ELEMENTS = 0, 3, 6, 13, 22, 23, 24
-# Of one layer of every element: trial stress, flow stress, multiplier, last step.
-_U, _LIMIT, _MULTIPLIER, _STEP, _OF_LAYER = 0, 3, 4, 5, 6
-
-
 @njit(cache=True, error_model="numpy", forceinline=True)
-def _turned(f, k, first):
+def _turned(frame, j, k, e1, e2, e6):
     """Three strains of an element in Cartesian axes."""
-    e1, e2, e6 = (
-        f[first * _DISTANCE + k], f[(first + 1) * _DISTANCE + k], f[(first + 2) * _DISTANCE + k],
-    )  # fmt: skip
-    at = _FRAME * _DISTANCE + k
     return (
-        f[at] * e1,
-        f[at + _DISTANCE] * e1 + f[at + 2 * _DISTANCE] * e2 + f[at + 3 * _DISTANCE] * e6,
-        f[at + 4 * _DISTANCE] * e1 + f[at + 5 * _DISTANCE] * e6,
+        frame[j, 0, k] * e1,
+        frame[j, 1, k] * e1 + frame[j, 2, k] * e2 + frame[j, 3, k] * e6,
+        frame[j, 4, k] * e1 + frame[j, 5, k] * e6,
     )
 
 
 @njit(cache=True, error_model="numpy", forceinline=True)
-def _turned_back(f, k, e1, e2, e6):
-    at = _FRAME * _DISTANCE + k
-    c1 = e1 / f[at]
-    c6 = (e6 - f[at + 4 * _DISTANCE] * c1) / f[at + 5 * _DISTANCE]
-    c2 = (e2 - f[at + _DISTANCE] * c1 - f[at + 3 * _DISTANCE] * c6) / f[at + 2 * _DISTANCE]
-    return c1, c2, c6
+def _turned_back(frame, j, k, e1, e2, e6):
+    c1 = e1 / frame[j, 0, k]
+    c6 = (e6 - frame[j, 4, k] * c1) / frame[j, 5, k]
+    return c1, (e2 - frame[j, 1, k] * c1 - frame[j, 3, k] * c6) / frame[j, 2, k], c6
 
 
 @njit(cache=True, error_model="numpy")
-def _tried(f, plastic, layer, z, count, flow):
-    """Trial stress of a layer, room left before it yields, and whether it flows."""
-    for k in range(count):
-        u, v, w = _trial(
-            f[_MEAN * _DISTANCE + k] + z * f[_BENT * _DISTANCE + k],
-            f[(_MEAN + 1) * _DISTANCE + k] + z * f[(_BENT + 1) * _DISTANCE + k],
-            f[(_MEAN + 2) * _DISTANCE + k] + z * f[(_BENT + 2) * _DISTANCE + k],
-            plastic[k], plastic[_DISTANCE + k], plastic[2 * _DISTANCE + k], flow,
+def _moved(strain, seen, frame, room, j, farthest, flow, over):
+    """By how much elements of a row have come nearer to yield than they have room for, squared.
+
+    The von Mises stress of what strains have changed by is convex over the thickness, so that no
+    layer has come nearer by more than the larger one of the outermost two.
+    """
+    sums, shear = flow[0] / (1.0 - flow[1]), flow[0] / (1.0 + flow[1])
+    for k in range(over.size):
+        m1, m2, m6 = _turned(
+            frame, j, k,
+            strain[j, 0, k] - seen[j, 0, k],
+            strain[j, 1, k] - seen[j, 1, k],
+            strain[j, 2, k] - seen[j, 2, k],
         )  # fmt: skip
-        limit, square = flow[2] + flow[3] * plastic[3 * _DISTANCE + k], _square(u, v, w)
-        layer[k], layer[_DISTANCE + k], layer[2 * _DISTANCE + k] = u, v, w
-        layer[_LIMIT * _DISTANCE + k] = limit
-        layer[_MULTIPLIER * _DISTANCE + k] = 0.0
-        layer[_STEP * _DISTANCE + k] = np.inf if _excess(square, limit) > 0.0 else 0.0
-    for k in range(count):
-        u, v, w = layer[k], layer[_DISTANCE + k], layer[2 * _DISTANCE + k]
-        left = layer[_LIMIT * _DISTANCE + k] - np.sqrt(_square(u, v, w))
-        least = f[_LEAST * _DISTANCE + k]
-        f[_LEAST * _DISTANCE + k] = least if left >= least else left
+        b1, b2, b6 = _turned(
+            frame, j, k,
+            strain[j, 3, k] - seen[j, 3, k],
+            strain[j, 4, k] - seen[j, 4, k],
+            strain[j, 5, k] - seen[j, 5, k],
+        )  # fmt: skip
+        mu, mv, mw = sums * (m1 + m2), shear * (m1 - m2), 0.5 * shear * m6
+        bu, bv = farthest * sums * (b1 + b2), farthest * shear * (b1 - b2)
+        bw = farthest * 0.5 * shear * b6
+        even = 0.25 * (mu * mu + bu * bu) + 0.75 * (mv * mv + bv * bv) + 3.0 * (mw * mw + bw * bw)
+        odd = 0.5 * mu * bu + 1.5 * mv * bv + 6.0 * mw * bw
+        over[k] = even + abs(odd) - room[j, k] * abs(room[j, k])
+
+
+LAYERS_MAX = _W = 512
+"""Of an element, and as many flow at a time."""
+# Rows of work arrays, of constant distance, by which the compiler sees that they do not overlap: of
+# the layers of one element, and of those that flow.
+_EXCESS, _LEFT = 3, 4
+_LIMIT, _MULTIPLIER, _STEP, _FLOWING = 3, 4, 5, 6
 
 
 @njit(cache=True, error_model="numpy")
-def _returned(f, plastic, layer, count, flow):
-    """Let a layer of every element flow back to its yield surface, all at once."""
-    flowing = 0
-    for k in range(count):
-        flowing += layer[_STEP * _DISTANCE + k] > 0.0
-    if flowing == 0:
-        return
-    while flowing > 0:
-        for k in range(count):
-            g, before = layer[_MULTIPLIER * _DISTANCE + k], layer[_STEP * _DISTANCE + k]
+def _excesses(layers, mean, bent, heights, flow, trial):
+    """Trial stress, excess beyond yield and room before it of the layers of one element."""
+    p1, p2, p6, done = layers[0], layers[1], layers[2], layers[3]
+    for n in range(heights.size):
+        z = heights[n]
+        u, v, w = _trial(
+            mean[0] + z * bent[0], mean[1] + z * bent[1], mean[2] + z * bent[2],
+            p1[n], p2[n], p6[n], flow,
+        )  # fmt: skip
+        limit, square = flow[2] + flow[3] * done[n], _square(u, v, w)
+        trial[n], trial[_W + n], trial[2 * _W + n] = u, v, w
+        trial[_EXCESS * _W + n] = _excess(square, limit)
+        trial[_LEFT * _W + n] = limit - np.sqrt(square)
+
+
+@njit(cache=True, error_model="numpy")
+def _flow(layers, f, where, count, flow):
+    """Let layers flow, all at once."""
+    for n in range(count):
+        f[_MULTIPLIER * _W + n], f[_STEP * _W + n] = 0.0, np.inf
+    left = count
+    while left > 0:
+        for n in range(count):
+            g = f[_MULTIPLIER * _W + n]
             step = _newton(
-                layer[k], layer[_DISTANCE + k], layer[2 * _DISTANCE + k],
-                layer[_LIMIT * _DISTANCE + k], g, flow,
+                f[n], f[_W + n], f[2 * _W + n], f[_LIMIT * _W + n], g, flow
             )  # fmt: skip
             # what has come to its end stays there, whatever flows beside it
-            step = step if _goes_on(g, before, flow) else 0.0
-            layer[_MULTIPLIER * _DISTANCE + k] = g + step
-            layer[_STEP * _DISTANCE + k] = step
-        flowing = 0
-        for k in range(count):
-            g, step = layer[_MULTIPLIER * _DISTANCE + k], layer[_STEP * _DISTANCE + k]
-            flowing += _goes_on(g, step, flow)
-    for k in range(count):
-        g = layer[_MULTIPLIER * _DISTANCE + k]
-        d1, d2, d6, more = _flowed(
-            layer[k], layer[_DISTANCE + k], layer[2 * _DISTANCE + k], g, flow
-        )
-        plastic[k] += d1
-        plastic[_DISTANCE + k] += d2
-        plastic[2 * _DISTANCE + k] += d6
-        plastic[3 * _DISTANCE + k] += more
-        most = f[_MOST * _DISTANCE + k]
-        f[_MOST * _DISTANCE + k] = g if g > most else most
+            step = step if f[_STEP * _W + n] > _LAST * g else 0.0
+            f[_MULTIPLIER * _W + n], f[_STEP * _W + n] = g + step, step
+        left = 0
+        for n in range(count):
+            left += f[_STEP * _W + n] > _LAST * f[_MULTIPLIER * _W + n]
+    for n in range(count):
+        d1, d2, d6, more = _flowed(f[n], f[_W + n], f[2 * _W + n], f[_MULTIPLIER * _W + n], flow)
+        f[n], f[_W + n], f[2 * _W + n], f[_LIMIT * _W + n] = d1, d2, d6, more
+    for n in range(count):
+        slot, layer = where[0, n], where[1, n]
+        for part in range(4):
+            layers[slot, part, layer] += f[part * _W + n]
 
 
 @njit(cache=True, error_model="numpy")
-def _added(f, plastic, z, count, flow):
-    """Add a layer to what those of each element amount to."""
+def _sum_all(layers, where, count, heights, frame, flow, sums):
+    for n in range(count):
+        j, k, slot = where[2, n], where[3, n], where[4, n]
+        _sum_up(layers[slot], heights, frame, j, k, flow, sums[slot])
+
+
+@njit(cache=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz"})
+def _sum_up(layers, heights, frame, j, k, flow, sums):
+    """What the layers of an element add up to, see `layers.Layers`."""
+    p1, p2, p6, done = layers[0], layers[1], layers[2], layers[3]
+    square, kinematic = 0.0, flow[4]
+    a = b = c = d = e = f = elastic = used = kept = 0.0
     first, second = 0.25 * flow[0] / (1.0 - flow[1]), 0.25 * flow[0] / (1.0 + flow[1])
-    for k in range(count):
-        p1, p2, p6 = plastic[k], plastic[_DISTANCE + k], plastic[2 * _DISTANCE + k]
-        done = plastic[3 * _DISTANCE + k]
-        total, apart = p1 + p2, p1 - p2
-        at = _SUM * _DISTANCE + k
-        f[at] += p1
-        f[at + _DISTANCE] += p2
-        f[at + 2 * _DISTANCE] += p6
-        f[at + 3 * _DISTANCE] += z * p1
-        f[at + 4 * _DISTANCE] += z * p2
-        f[at + 5 * _DISTANCE] += z * p6
-        f[at + 6 * _DISTANCE] += first * total * total + second * (apart * apart + p6 * p6)
-        f[at + 7 * _DISTANCE] += done * (flow[2] + 0.5 * flow[3] * done)
-        f[at + 8 * _DISTANCE] += 0.75 * total * total + 0.25 * (apart * apart + p6 * p6)
-
-
-@njit(cache=True, error_model="numpy")
-def _averaged(f, count, heights, flow):
-    """From sums over the layers to `layers.Layers.sums`."""
-    one, square = 1.0 / heights.size, 0.0
-    for z in heights:
+    for n in range(heights.size):
+        z = heights[n]
         square += z * z
-    for k in range(count):
-        at = _SUM * _DISTANCE + k
-        c1, c2, c6 = _turned_back(
-            f, k, one * f[at], one * f[at + _DISTANCE], one * f[at + 2 * _DISTANCE]
-        )
-        b1, b2, b6 = _turned_back(
-            f, k, f[at + 3 * _DISTANCE] / square, f[at + 4 * _DISTANCE] / square,
-            f[at + 5 * _DISTANCE] / square,
-        )  # fmt: skip
-        share = one * f[(_FRAME + 6) * _DISTANCE + k]
-        f[at], f[at + _DISTANCE], f[at + 2 * _DISTANCE] = c1, c2, c6
-        f[at + 3 * _DISTANCE], f[at + 4 * _DISTANCE], f[at + 5 * _DISTANCE] = b1, b2, b6
-        f[at + 6 * _DISTANCE] *= share
-        f[at + 7 * _DISTANCE] *= share
-        f[at + 8 * _DISTANCE] *= share * (2.0 / 3.0) * flow[4]
+        a, b, c = a + p1[n], b + p2[n], c + p6[n]
+        d, e, f = d + z * p1[n], e + z * p2[n], f + z * p6[n]
+        total, apart = p1[n] + p2[n], p1[n] - p2[n]
+        elastic += first * total * total + second * (apart * apart + p6[n] * p6[n])
+        used += done[n] * (flow[2] + 0.5 * flow[3] * done[n])
+        kept += 0.75 * total * total + 0.25 * (apart * apart + p6[n] * p6[n])
+    one = 1.0 / heights.size
+    sums[0], sums[1], sums[2] = _turned_back(frame, j, k, one * a, one * b, one * c)
+    sums[3], sums[4], sums[5] = _turned_back(frame, j, k, d / square, e / square, f / square)
+    share = one * frame[j, 6, k]
+    sums[6], sums[7] = share * elastic, share * used
+    sums[8] = share * (2.0 / 3.0) * kinematic * kept
 
 
 @njit(cache=True, error_model="numpy")
-def _begun(f, frame, elements, first, count):
-    """Clear the sums of a batch and note the frames of its elements."""
-    f[_SUM * _DISTANCE :] = 0.0
-    f[_LEAST * _DISTANCE : _MOST * _DISTANCE] = np.inf
-    for k in range(count):
-        for part in range(7):
-            f[(_FRAME + part) * _DISTANCE + k] = frame[elements[first + k], part]
+def flow_on(strain, frame, heights, flow, layers, sums, seen, room, slots, free, changed):
+    """Bring the layers of all elements up to date once mean strains have been reached.
 
-
-@njit(cache=True, error_model="numpy")
-def flow_on(
-    elements, strains, frame, heights, flow, layers, sums, room, slots, free, changed
-):  # fmt: skip
-    """Bring the layers of some elements up to date once mean strains have been reached.
-
-    Many elements at a time, layer by layer, so that all of it is done on vectors.
+    Layers are looked at only where strains have changed, since they were looked at last, by as much
+    as the element then had room for before any layer yields; there they are where they would
+    be had all been looked at.
 
     Parameters
     ----------
-    elements : ndarray of int, shape (number,)
-        Row times elements around plus column.
-    strains : ndarray, shape (number, 6)
+    strain : ndarray, shape (elements_along, 6, elements_around)
         e_11, e_22, 2 e_12 and k_11, k_22, 2 k_12 in the coordinates of the elements.
-    frame : ndarray, shape (all elements, 7)
+    frame : ndarray, shape (elements_along, 7, elements_around)
         See `cartesian_frame`; the last one is the volume of an element, m3.
     heights : ndarray, shape (layers,)
         Above the middle surface, m; all count alike.
     flow : Flow
     layers, sums : ndarray
         See `layers.Layers`; what flows is written into free slots.
-    room : ndarray, shape (number,)
-        Receives how much the von Mises stress can rise in any layer before it yields, Pa.
-    slots : ndarray of int, shape (all elements,)
+    seen : ndarray, shape of strain
+        Strains that were looked at last.
+    room : ndarray, shape (elements_along, elements_around)
+        How much the von Mises stress could rise then in any layer, Pa; negative where the element
+        has to be looked at.
+    slots : ndarray of int, shape (elements_along, elements_around)
         Of the elements; overwritten where one flows.
     free : ndarray of int
-        Free slots, as many as elements at least; the last ones are taken first.
-    changed : ndarray of int, shape (number,)
-        Receives the elements that have flowed.
+        Free slots, as many as elements at least.
+    changed : ndarray of int, shape (elements,)
+        Receives the elements that have flowed, row times elements around plus column.
 
     Returns
     -------
     int
         How many free slots were used.
     """
-    number, used = heights.size, 0
-    f, layer = np.zeros(_OF_ELEMENTS * _DISTANCE), np.zeros(_OF_LAYER * _DISTANCE)
-    width = 4 * _DISTANCE
-    plastic = np.zeros(number * width)
-    for first in range(0, len(elements), _BATCH):
-        count = min(_BATCH, len(elements) - first)
-        _begun(f, frame, elements, first, count)
-        for k in range(count):
-            for part in range(6):
-                f[part * _DISTANCE + k] = strains[first + k, part]
-            slot = slots[elements[first + k]]
-            for part in range(4):
-                for n in range(number):
-                    plastic[n * width + part * _DISTANCE + k] = layers[slot, part, n]
-        for k in range(count):
-            m1, m2, m6 = _turned(f, k, _MEAN)
-            b1, b2, b6 = _turned(f, k, _BENT)
-            f[k], f[_DISTANCE + k], f[2 * _DISTANCE + k] = m1, m2, m6
-            f[3 * _DISTANCE + k], f[4 * _DISTANCE + k], f[5 * _DISTANCE + k] = b1, b2, b6
-        for n in range(number):
-            p = plastic[n * width : (n + 1) * width]
-            _tried(f, p, layer, heights[n], count, flow)
-            _returned(f, p, layer, count, flow)
-            _added(f, p, heights[n], count, flow)
-        _averaged(f, count, heights, flow)
-        for k in range(count):
-            if not f[_MOST * _DISTANCE + k] > 0.0:
-                room[first + k] = f[_LEAST * _DISTANCE + k]
+    number, used, waiting, elements = heights.size, 0, 0, 0
+    farthest = np.abs(heights).max()
+    trial, over = np.empty(5 * _W), np.empty(strain.shape[2])
+    flowing, where = np.empty(_FLOWING * _W), np.empty((5, _W), dtype=np.int64)
+    for j in range(strain.shape[0]):
+        _moved(strain, seen, frame, room, j, farthest, flow, over)
+        for k in range(over.size):
+            if over[k] < 0.0:  # what is not a number is looked at
                 continue
-            room[first + k] = 0.0
-            slot = free[len(free) - 1 - used]
-            slots[elements[first + k]] = slot
-            changed[used] = elements[first + k]
+            for part in range(6):
+                seen[j, part, k] = strain[j, part, k]
+            mean = _turned(frame, j, k, strain[j, 0, k], strain[j, 1, k], strain[j, 2, k])
+            bent = _turned(frame, j, k, strain[j, 3, k], strain[j, 4, k], strain[j, 5, k])
+            slot = slots[j, k]
+            _excesses(layers[slot], mean, bent, heights, flow, trial)
+            least, first = np.inf, waiting
+            for n in range(number):
+                if trial[_EXCESS * _W + n] > 0.0:
+                    for part in range(3):
+                        flowing[part * _W + waiting] = trial[part * _W + n]
+                    flowing[_LIMIT * _W + waiting] = flow[2] + flow[3] * layers[slot, 3, n]
+                    where[0, waiting], where[1, waiting] = free[used], n
+                    waiting += 1
+                if not trial[_LEFT * _W + n] >= least:
+                    least = trial[_LEFT * _W + n]
+            room[j, k] = least
+            if waiting == first:
+                continue
+            room[j, k] = 0.0
+            layers[free[used]] = layers[slot]
+            slots[j, k] = free[used]
+            changed[used] = j * over.size + k
+            where[2, elements], where[3, elements], where[4, elements] = j, k, free[used]
             used += 1
-            for part in range(4):
-                for n in range(number):
-                    layers[slot, part, n] = plastic[n * width + part * _DISTANCE + k]
-            for part in range(9):
-                sums[slot, part] = f[(_SUM + part) * _DISTANCE + k]
+            elements += 1
+            if waiting + number > _W:
+                _flow(layers, flowing, where, waiting, flow)
+                _sum_all(layers, where, elements, heights, frame, flow, sums)
+                waiting = elements = 0
+    _flow(layers, flowing, where, waiting, flow)
+    _sum_all(layers, where, elements, heights, frame, flow, sums)
     return used
 
 
 @njit(cache=True, error_model="numpy")
-def sum_up(elements, frame, heights, flow, layers, slots, sums):
-    """Write what the layers in the slots of some elements add up to."""
-    f, plastic = np.zeros(_OF_ELEMENTS * _DISTANCE), np.zeros(4 * _DISTANCE)
-    for first in range(0, len(elements), _BATCH):
-        count = min(_BATCH, len(elements) - first)
-        _begun(f, frame, elements, first, count)
-        for n in range(heights.size):
-            for k in range(count):
-                for part in range(4):
-                    slot = slots[elements[first + k]]
-                    plastic[part * _DISTANCE + k] = layers[slot, part, n]
-            _added(f, plastic, heights[n], count, flow)
-        _averaged(f, count, heights, flow)
-        for k in range(count):
-            for part in range(9):
-                slot = slots[elements[first + k]]
-                sums[slot, part] = f[(_SUM + part) * _DISTANCE + k]
-
-
-def stress_forms(frame: np.ndarray, flow: Flow) -> np.ndarray:
-    """Matrices whose quadratic form is the square of the von Mises stress of elastic strains.
-
-    Parameters
-    ----------
-    frame : ndarray, shape (elements, 6 or 7)
-        See `cartesian_frame`.
-
-    Returns
-    -------
-    ndarray, shape (elements, 3, 3)
-        Of e_11, e_22, 2 e_12 in the coordinates of the elements, Pa2.
-    """
-    zero = np.zeros(len(frame))
-    turn = np.stack(
-        [frame[:, 0], zero, zero, *frame[:, 1:4].T, frame[:, 4], zero, frame[:, 5]], axis=1
-    ).reshape(-1, 3, 3)
-    sums = flow.youngs_modulus / (1 - flow.poisson_ratio)
-    shear = flow.youngs_modulus / (1 + flow.poisson_ratio)
-    halves = np.array(
-        [
-            [0.5 * sums, 0.5 * sums, 0.0],
-            [np.sqrt(0.75) * shear, -np.sqrt(0.75) * shear, 0.0],
-            [0.0, 0.0, np.sqrt(0.75) * shear],
-        ]
-    )
-    parts = halves @ turn
-    return parts.transpose(0, 2, 1) @ parts
+def sum_up(layers, slots, heights, frame, flow, sums):
+    """Write what the layers in the slots of all elements that have yielded add up to."""
+    for j in range(slots.shape[0]):
+        for k in range(slots.shape[1]):
+            if slots[j, k] > 0:
+                slot = slots[j, k]
+                _sum_up(layers[slot], heights, frame, j, k, flow, sums[slot])
 
 
 def cartesian_frame(forms: np.ndarray) -> np.ndarray:
