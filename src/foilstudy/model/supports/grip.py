@@ -24,8 +24,8 @@ from foilstudy.model.shell.tangent import REACH
 _SLOWNESS, _AT_REST = 20.0, 2.0
 """On the bound of the stiffness by which an overload makes slip, in each pseudo-time step: while a
 ring moves, and after. From 1 on nothing overshoots. With 2 the shaking of a ramp of 2 000 steps
-makes 500 um foil slip three to four times as far as 8 000 do, with 20 as far; but a clamp that
-bears hardly more than the ring's force would not come to its end so."""
+makes 500 um foil slip four times as far as 8 000 do, with 20 twice as far at most; but a clamp
+that bears hardly more than the ring's force would not come to its end so."""
 
 
 @dataclass(frozen=True, eq=False)
