@@ -106,7 +106,7 @@ def test_slipping_uses_up_work_and_takes_more_out_of_the_foil(at_work):
     energy, work = shell.energies(points).total, 0.0
     for _ in range(30):
         before = points.copy()
-        state = grip.given_way(points, force, state)
+        state = grip.given_way(points, force, state, at_rest=True)
         assert np.array_equal(points[:, RING_ROWS:-RING_ROWS], before[:, RING_ROWS:-RING_ROWS])
         assert np.abs(state.out).max() <= 0.3e-3
         assert state.work >= work
@@ -129,8 +129,8 @@ def test_a_rigid_motion_changes_nothing(at_work):
         return np.ascontiguousarray(np.einsum("ij,jrc->irc", turn, field))
 
     here, there = points.copy(), turned(points) + 0.3
-    state = grip.given_way(here, force, grip.start())
-    again = grip.given_way(there, turned(force), grip.start())
+    state = grip.given_way(here, force, grip.start(), True)
+    again = grip.given_way(there, turned(force), grip.start(), True)
     assert state.out.any()
     np.testing.assert_allclose(again.out, state.out, rtol=1e-9, atol=1e-15)
     assert np.abs(there - turned(here) - 0.3).max() < 1e-12
@@ -142,14 +142,14 @@ def test_what_it_bears_does_not_slip(at_work):
     shell, _, points, force = at_work
     firm = Grip(shell, 1e-3, 1e9)
     here = points.copy()
-    assert firm.given_way(here, force, firm.start()).work == 0
+    assert firm.given_way(here, force, firm.start(), True).work == 0
     assert np.array_equal(here, points) and firm.unheld(points, force, firm.start()) == 0
 
 
 def test_a_finer_mesh_has_slipped_as_the_coarse_one(at_work):
     """Knot insertion of the rings with what has slipped: the same curves."""
     shell, grip, points, force = at_work
-    state = grip.given_way(here := points.copy(), force, grip.start())
+    state = grip.given_way(here := points.copy(), force, grip.start(), True)
     finer = grip.restored(grip.split(state))
     assert finer.out.shape == (2, 2 * shell.patch.columns) and finer.work == state.work
     moved = (refine(here) - refine(points))[2]

@@ -120,8 +120,11 @@ class Lagging(Following, Protocol):
 class GivingWay(Term, Protocol):
     """A support of the rings' own control points that does not hold whatever pulls at them."""
 
-    def given_way(self, points: np.ndarray, force: np.ndarray, state: Any) -> Any:
-        """Move control points of the rings where the force on them is too large; the state then."""
+    def given_way(self, points: np.ndarray, force: np.ndarray, state: Any, at_rest: bool) -> Any:
+        """Move control points of the rings where the force on them is too large; the state then.
+
+        `at_rest` says whether the rings themselves stand still.
+        """
         ...
 
     def unheld(self, points: np.ndarray, force: np.ndarray, state: Any) -> float:
@@ -290,10 +293,10 @@ class Problem:
         """Whether the rings do not hold whatever pulls at them."""
         return any(isinstance(term, GivingWay) for term in self.terms)
 
-    def give_way(self, points: np.ndarray, force: np.ndarray) -> None:
+    def give_way(self, points: np.ndarray, force: np.ndarray, at_rest: bool) -> None:
         """Let the rings give way to the force on them, and their control points move."""
         self.state = tuple(
-            term.given_way(points, force, state) if isinstance(term, GivingWay) else state
+            term.given_way(points, force, state, at_rest) if isinstance(term, GivingWay) else state
             for term, state in zip(self.terms, self.state, strict=True)
         )
 

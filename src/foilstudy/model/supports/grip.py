@@ -21,10 +21,11 @@ from foilstudy.model.patch import RING_ROWS, refine
 from foilstudy.model.shell.shell import Shell
 from foilstudy.model.shell.tangent import REACH
 
-_SLOWNESS = 20.0
-"""On the bound of the stiffness by which an overload makes slip, in each pseudo-time step. From 1
-on nothing overshoots. With 2 the shaking of a ramp of 2 000 steps makes 500 um foil slip three to
-four times as far as 8 000 do; with 20 and 30 as far; with 300 it does not come to its end."""
+_SLOWNESS, _AT_REST = 20.0, 2.0
+"""On the bound of the stiffness by which an overload makes slip, in each pseudo-time step: while a
+ring moves, and after. From 1 on nothing overshoots. With 2 the shaking of a ramp of 2 000 steps
+makes 500 um foil slip four times as far as 8 000 do, with 20 twice as far at most; but a clamp
+that bears hardly more than the ring's force would not come to its end so."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,16 +88,20 @@ class Grip:
         """See `solve.problem.Term`: in small motions the clamps hold."""
         return sparse.csr_matrix((points.size, points.size))
 
-    def given_way(self, points: np.ndarray, force: np.ndarray, state: Slipped) -> Slipped:
+    def given_way(
+        self, points: np.ndarray, force: np.ndarray, state: Slipped, at_rest: bool
+    ) -> Slipped:
         """See `solve.problem.GivingWay`."""
         directions = [_outward(points, ring) for ring in _RINGS]
         excess = self._excess(directions, force, state)
         if not excess.any():
             return state
-        out = np.clip(state.out + excess / self._stiffness, -self._slip, self._slip)
+        slowness = _AT_REST if at_rest else _SLOWNESS
+        way = excess / (slowness * self._stiffness)
+        out = np.clip(state.out + way, -self._slip, self._slip)
         slipped = out - state.out
-        for ring, direction, way in zip(_RINGS, directions, slipped, strict=True):
-            points[:, ring] += (way * direction)[:, None]
+        for ring, direction, more in zip(_RINGS, directions, slipped, strict=True):
+            points[:, ring] += (more * direction)[:, None]
         return Slipped(out, state.work + self._limit * float(np.abs(slipped).sum()))
 
     def unheld(self, points: np.ndarray, force: np.ndarray, state: Slipped) -> float:
@@ -151,7 +156,7 @@ class Grip:
         among = [
             sum(blocks[ring][p, :, q - p + REACH] for p in rows for q in rows) for ring in _RINGS
         ]
-        return _SLOWNESS * np.abs(np.stack(among)).sum(axis=2)
+        return np.abs(np.stack(among)).sum(axis=2)
 
 
 _RINGS = slice(0, RING_ROWS), slice(-RING_ROWS, None)

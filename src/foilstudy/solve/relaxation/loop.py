@@ -267,7 +267,7 @@ def relax(
         if turned and step <= ramp.steps:
             turned.move(points, ramp.progress_at(step - 1), ramp.progress_at(step))
         if problem.gives_way:
-            problem.give_way(points, force)
+            problem.give_way(points, force, at_rest=step > ramp.steps)
             if turned:
                 turned.renew(points, ramp.progress_at(step))
         if problem.has_memory:
