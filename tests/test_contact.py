@@ -10,12 +10,15 @@ from conftest import DIAMETER, FEP, GAP_HEIGHT, imperfect_sheet, rotation
 from foilstudy.base.errors import Refusal
 from foilstudy.linalg import SolveError
 from foilstudy.model.contact.barrier import PARALLEL, pair_energy, pair_hessian
+from foilstudy.model.contact.candidates import Balls, candidates
 from foilstudy.model.contact.distance import closest
 from foilstudy.model.contact.followed import FollowedPairs
 from foilstudy.model.contact.options import BarrierContact
+from foilstudy.model.contact.pairs import distances
 from foilstudy.model.contact.planes import RingPlanes
 from foilstudy.model.contact.surface import triangulation
 from foilstudy.model.contact.term import SelfContact
+from foilstudy.model.contact.windows import Windows
 from foilstudy.model.foil import Foil
 from foilstudy.model.patch import Patch, knot_points
 from foilstudy.model.shell.intersection import self_crossing_share
@@ -212,26 +215,36 @@ def test_nothing_near_means_exactly_nothing():
     assert term.tangent(sheet.reference).nnz == 0
 
 
-def brute_force(surface, knots, distance):
-    """Every pair of a point and a triangle, and of two edges, that is near; no grid."""
-    scratch = np.empty(4), np.empty((2, 4)), np.empty(3)
-    near = set()
-    for t in surface.triangles:
-        for p in range(len(knots)):
-            ids = (p, *t)
-            if p not in t and closest(knots[list(ids)], False, *scratch)[0] < distance**2:
-                near.add((False, *map(int, ids)))
-    for e, f in combinations(surface.edges, 2):
-        ids = (*e, *f)
-        if len(set(ids)) == 4 and closest(knots[list(ids)], True, *scratch)[0] < distance**2:
-            near.add((True, *map(int, ids)))
-    return near
+def all_pairs(surface):
+    """Every point and triangle, and every two edges, that share no knot; whether they are edges."""
+    points = np.repeat(np.arange(surface.count), len(surface.triangles))
+    touching = np.column_stack([points, np.tile(surface.triangles, (surface.count, 1))])
+    one, other = np.triu_indices(len(surface.edges), 1)
+    crossing = np.column_stack([surface.edges[one], surface.edges[other]])
+    apart = np.all(touching[:, 1:] != touching[:, :1], axis=1)
+    free = np.all(crossing[:, :2, None] != crossing[:, None, 2:], axis=(1, 2))
+    pairs = np.concatenate([touching[apart], crossing[free]])
+    return pairs, np.arange(len(pairs)) >= apart.sum()
+
+
+def brute_force(pairs, edges, knots, distance):
+    """Those of all pairs that are near."""
+    near = distances(knots, pairs, edges) < distance
+    return {(bool(e), *map(int, p)) for p, e in zip(pairs[near], edges[near], strict=True)}
+
+
+def found_by(followed):
+    active = followed.active()
+    pairs, edges = followed.pairs[active], followed.edges[active]
+    near = [(bool(e), *map(int, pair)) for e, pair in zip(edges, pairs, strict=True)]
+    assert len(near) == len(set(near))
+    return set(near)
 
 
 def test_no_pair_is_missed_however_the_knots_move():
     patch = Patch(10, 6, 0.02, 0.02)
     surface = triangulation(patch)
-    rng = np.random.default_rng(3)
+    everything, rng = all_pairs(surface), np.random.default_rng(3)
     knots = rng.uniform(0, 0.06, (surface.count, 3))
     thickness, reach, skin = 1e-3, 2e-3, 4e-3
     followed = FollowedPairs(surface, knots, thickness, reach, skin)
@@ -242,13 +255,75 @@ def test_no_pair_is_missed_however_the_knots_move():
         followed.share(motion, 0.9)
         knots = knots + motion
         followed.move(knots)
-        active = followed.active()
-        pairs, edges = followed.pairs[active], followed.edges[active]
-        near = [(bool(e), *map(int, pair)) for e, pair in zip(edges, pairs, strict=True)]
-        assert len(near) == len(set(near))
-        assert set(near) == brute_force(surface, knots, thickness + reach)
+        near = found_by(followed)
+        assert near == brute_force(*everything, knots, thickness + reach)
         found += len(near)
     assert found > 100
+
+
+def folding(patch, way, rng):
+    """A smooth tube that turns, is wrung, pressed flat and creased, from round at 0; knots."""
+    around, along = np.meshgrid(
+        np.linspace(0, 2 * np.pi, patch.columns, endpoint=False), np.arange(patch.rows - 1.0)
+    )
+    wave = sum(
+        a * np.cos(k * around + b * along + c)
+        for k, a, b, c in rng.normal(size=(4, 4)) * [2, 1, 1, 3]
+    )
+    radius = patch.columns * patch.size_around / (2 * np.pi) * (1 + 0.25 * way * wave)
+    flat = 1 - 0.95 * way**2
+    x, y = radius * np.cos(around), flat * radius * np.sin(around)
+    z = patch.size_along * along * (1 - 0.5 * way) + 0.5 * way * y
+    return np.stack([x, y, z], axis=-1).reshape(-1, 3) @ rotation([1, 2, 3], 4 * way).T
+
+
+@pytest.mark.parametrize(("columns", "rows"), [(20, 9), (7, 5), (3, 4)])
+def test_no_pair_of_a_sheet_that_folds_is_missed(columns, rows):
+    """Where most is known of windows and blocks, and little is listed; steps of all sizes."""
+    patch = Patch(columns, rows, 0.02, 0.02)
+    surface = triangulation(patch)
+    everything, thickness, reach, skin = all_pairs(surface), 1e-3, 2e-3, 9e-3
+    steps = np.random.default_rng(1).choice([1e-3, 4e-3, 2e-2], 60 if columns > 7 else 100)
+    ways = np.concatenate([[0.0], np.cumsum(steps) / np.sum(steps)])
+    followed, found, listed = None, 0, []
+    for n, way in enumerate(ways):
+        knots = folding(patch, way, np.random.default_rng(7))
+        if followed is None:
+            followed = FollowedPairs(surface, knots, thickness, reach, skin)
+        followed.share(knots - followed.knots, 0.9)
+        followed.move(knots)
+        near = found_by(followed)
+        listed.append(len(followed.pairs))
+        if n % 3 == 0 or len(near):
+            assert near == brute_force(*everything, knots, thickness + reach)
+        found += len(near)
+    assert found > 5
+    assert listed[0] < 0.2 * max(listed)
+
+
+def test_windows_know_no_more_than_is_true():
+    """Of flat ones the whole distance, of bent and skewed ones less than it, of folded ones 0."""
+    patch = Patch(8, 6, 1.0, 1.0)
+    surface = triangulation(patch)
+    windows = Windows(surface)
+    rng, known = np.random.default_rng(5), []
+    for size in (0.0, 0.1, 0.3, 0.6):
+        row, column = np.divmod(np.arange(surface.count), 8)
+        knots = np.stack([column, row, np.zeros(surface.count)], axis=-1)
+        knots = (knots + size * rng.uniform(-1, 1, knots.shape)) @ rotation([3, 1, 2], 1.0).T
+        windows.near(knots, 0.0)
+        for window in range(0, 6):  # those of the first row that are not torn around
+            elements, _ = windows.element_pairs(np.array([window]))
+            balls = Balls(surface)
+            balls.renew(knots, np.unique(elements))
+            pairs, edges, _ = candidates(surface, knots, 10.0, balls, elements)
+            least = distances(knots, pairs, edges).min()
+            value = windows.apart(window)
+            assert value <= least * (1 + 1e-12)
+            if size == 0.0:
+                assert value == pytest.approx(np.sqrt(0.5), rel=1e-12)
+            known.append(value / least)
+    assert min(known) < 0 < 0.5 < np.median(known)
 
 
 # ------------------------------------------------------------------ refusals

@@ -6,6 +6,7 @@ from conftest import DIAMETER, FEP, rotation
 from test_contact import flattened
 from test_contact_study import BARRIER, refusal, study_with
 
+from foilstudy.base.errors import Refusal
 from foilstudy.base.record import read_record
 from foilstudy.measure.stiffness import prestressed_stiffness
 from foilstudy.model.contact import sliding
@@ -267,6 +268,16 @@ def test_on_a_finer_mesh_contacts_begin_anew(record):
     crumpled = Crumpled.recorded(record)
     assert len(crumpled.problem().state[-1]) > 0
     assert len(crumpled.refined().problem().state[-1]) == 0
+    with pytest.raises(Refusal, match="contacts that rub held on the mesh of the crumple"):
+        crumpled.refined().settled()
+
+
+def test_what_a_recorded_crumple_knows_of_its_contacts_needs_no_force(record):
+    values, _ = read_record(record)
+    numbers = Crumpled.recorded(record).problem().numbers()
+    assert numbers["contact_pairs"] == values["contact_pairs"] > 0
+    assert numbers["contact_share"] == values["contact_share"]
+    assert numbers["contact_gap_min"] == pytest.approx(float(values["contact_gap_min"]), rel=1e-9)
 
 
 def test_a_foil_that_touches_nothing_is_recorded_and_read_back(tmp_path):

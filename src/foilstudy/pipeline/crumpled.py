@@ -25,6 +25,7 @@ from foilstudy.measure.stiffness.contacts import (
 )
 from foilstudy.measure.stiffness.stress_removal import Relieved, StressRemoval
 from foilstudy.measure.verdicts import Verdict, verdicts
+from foilstudy.model.contact.springs import Springs
 from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.model.patch import Patch
 from foilstudy.pipeline.evidence import evidence_of
@@ -150,6 +151,9 @@ class Crumpled(Shape):
     def problem(self) -> Problem:
         """The potential energy of the foil, at the state in which it has arrived."""
         problem = super().problem()
+        for term in problem.terms:
+            if isinstance(term, Springs):
+                term.stand_at(self.points)
         if self.arrival and self.arrival.state:
             # what has let go since has no memory, and comes last
             known = self.arrival.state[: len(problem.terms)]
@@ -218,10 +222,25 @@ class Crumpled(Shape):
         return replace(self, arrival=replace(self.arrival, state=problem.state))
 
     def settled(self, method: Method | None = None) -> Self:
-        """The nearest stable equilibrium, for a shape that was refined or came from elsewhere."""
+        """The nearest stable equilibrium, for a shape that was refined or came from elsewhere.
+
+        Raises
+        ------
+        Refusal
+            If it was refined and its contacts rubbed.
+        """
         path = (method or self.method).path
+        if self._has_lost_friction():
+            raise Refusal(
+                "what contacts that rub held on the mesh of the crumple is not known on a finer "
+                "one; crumple the foil on the mesh that is wanted, or without friction."
+            )
         arrival = path.settle(self.problem(), self.points)
         return replace(self, points=arrival.points, arrival=arrival)
+
+    def _has_lost_friction(self) -> bool:
+        rubs = bool(self.recipe) and getattr(self.method.contact, "friction", 0.0) > 0
+        return rubs and self.patch != self.recipe.mesh.of_ramp().patch(self.foil)
 
     def stiffness(self) -> np.ndarray:
         """Axial and radial stiffness, stress-free, other motions held, shape (2,), N/m.

@@ -21,7 +21,17 @@ from foilstudy.model.patch import RING_ROWS, Patch
 from foilstudy.model.shell.held import held_blocks
 from foilstudy.model.shell.shell import Shell
 
-__all__ = ["Following", "GivingWay", "Joint", "Lagging", "Lasting", "Problem", "Telling", "Term"]
+__all__ = [
+    "Following",
+    "GivingWay",
+    "Joint",
+    "Lagging",
+    "Lasting",
+    "Problem",
+    "Resting",
+    "Telling",
+    "Term",
+]
 
 
 class Term(Protocol):
@@ -152,6 +162,15 @@ class Joint(Term, Protocol):
         ...
 
 
+@runtime_checkable
+class Resting(Term, Protocol):
+    """A term that exerts nothing most of the time, and tells so at little cost."""
+
+    def rests(self, points: np.ndarray) -> bool:
+        """Whether it exerts nothing in a shape, of which it then takes note as `force` does."""
+        ...
+
+
 class Problem:
     """A shell and what acts on it.
 
@@ -181,6 +200,11 @@ class Problem:
         self.shell, self.whole = shell, whole or shell
         self.beginning = shell.reference
         self.terms: tuple[Term, ...] = (shell, *others)
+        # what is evaluated together with the shell, if anything is, and how many terms that makes
+        joint = bool(others) and isinstance(others[0], Joint) and others[0].shell is shell
+        self._joint: Joint | None = others[0] if joint else None
+        self._first = 2 if joint else 1
+        self._resting = tuple(isinstance(term, Resting) for term in self.terms)
         names = [name for term in self.terms for name in term.energy_names]
         # a second one of a name is told apart
         self.energy_names = tuple(
@@ -217,37 +241,36 @@ class Problem:
             Another one than that last committed.
         """
         states = self.state if state is None else state
-        joint, rest = self._split(states)
-        if joint:
-            energies = joint.force_with_shell(points, out, states[1])
+        if self._joint:
+            energies = self._joint.force_with_shell(points, out, states[1])
         else:
             energies = self.shell.force(points, out, states[0])
-        if not rest:
+        if self._first == len(self.terms):
             return energies
-        parts, share = [energies], np.empty_like(out)
-        for term, own in rest:
-            parts.append(term.force(points, share, own))
-            out += share
-        return np.concatenate(parts)
+        return np.concatenate([energies, *self._add_others(points, out, states)])
 
     def gradient(self, points: np.ndarray, out: np.ndarray) -> None:
         """The same bits without the energies, which cost a little."""
-        joint, rest = self._split(self.state)
-        if joint is None:
-            self.force(points, out)
-            return
-        joint.gradient_with_shell(points, out, self.state[1])
-        share = np.empty_like(out) if rest else out
-        for term, own in rest:
-            term.force(points, share, own)
-            out += share
+        if self._joint is None:
+            self.shell.force(points, out, self.state[0])
+        else:
+            self._joint.gradient_with_shell(points, out, self.state[1])
+        self._add_others(points, out, self.state)
 
-    def _split(self, states: tuple[Any, ...]) -> tuple[Joint | None, list[tuple[Term, Any]]]:
-        """What is evaluated together with the shell, if anything is, and the other terms."""
-        rest = list(zip(self.terms[1:], states[1:], strict=True))
-        if rest and isinstance(rest[0][0], Joint) and rest[0][0].shell is self.shell:
-            return rest[0][0], rest[1:]
-        return None, rest
+    def _add_others(
+        self, points: np.ndarray, out: np.ndarray, states: tuple[Any, ...]
+    ) -> list[np.ndarray]:
+        """Add what the terms beside the shell exert; return their energies, J."""
+        energies, share = [], None
+        for k in range(self._first, len(self.terms)):
+            term = self.terms[k]
+            if self._resting[k] and term.rests(points):
+                energies.append(np.zeros(len(term.energy_names)))
+                continue
+            share = np.empty_like(out) if share is None else share
+            energies.append(term.force(points, share, states[k]))
+            out += share
+        return energies
 
     def value(self, points: np.ndarray) -> float:
         """Potential energy, J."""

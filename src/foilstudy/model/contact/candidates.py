@@ -89,21 +89,27 @@ def whole(search, room, *arguments, width=5):
 @njit(cache=True, error_model="numpy")
 def fill_balls(knots, members, which, middles, radii):
     """Middle and radius of a ball around each of some sets of knots."""
-    width = members.shape[1]
     for b in which:
-        for c in range(3):
-            total = 0.0
-            for m in range(width):
-                total += knots[members[b, m], c]
-            middles[b, c] = total / width
-        most = 0.0
+        fill_ball(knots, members, b, middles, radii)
+
+
+@njit(cache=True, error_model="numpy")
+def fill_ball(knots, members, b, middles, radii):
+    """The same of one set."""
+    width = members.shape[1]
+    for c in range(3):
+        total = 0.0
         for m in range(width):
-            square = 0.0
-            for c in range(3):
-                way = knots[members[b, m], c] - middles[b, c]
-                square += way * way
-            most = max(most, square)
-        radii[b] = np.sqrt(most)
+            total += knots[members[b, m], c]
+        middles[b, c] = total / width
+    most = 0.0
+    for m in range(width):
+        square = 0.0
+        for c in range(3):
+            way = knots[members[b, m], c] - middles[b, c]
+            square += way * way
+        most = max(most, square)
+    radii[b] = np.sqrt(most)
 
 
 @njit(cache=True, error_model="numpy")

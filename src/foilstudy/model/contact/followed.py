@@ -1,27 +1,35 @@
 """Which pairs are within the reach, followed from shape to shape.
 
-The surface is cut into blocks. How much nearer two blocks may have come is bounded by the motion of
-their means against each other and by what their knots deviate from these; the pairs of two blocks
-are sought anew when that bound has used up half of their skin. All that is done once in a while, in
-a shape of which every pair is measured. In those that follow, lists are complete until knots have
-moved by what the last of the skins leaves, and only the pairs are looked at whose gap beyond the
-reach the motion may have used up.
+What belongs to elements that share a knot is judged in windows of two by two of them (`windows`),
+all of which are looked at once in a while. Other elements are followed in blocks. How much nearer
+two blocks may have come is bounded by the motion of their means against each other and by what
+their knots deviate from these; when that has used up most of their distance it is measured anew, of
+these two alone. Only where a window or two blocks may be near, pairs of points and triangles and of
+edges are sought, with a skin beyond the reach. In the shapes that follow, lists are complete until
+knots have moved by what the least of these distances leaves, and only the pairs are looked at whose
+gap beyond the reach the motion may have used up.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from foilstudy.model.contact.blocks import blocks_of, closing_bounds, spread
+from foilstudy.model.contact.blocks import Distances, blocks_of, kept_pairs
 from foilstudy.model.contact.candidates import Balls, candidates
 from foilstudy.model.contact.pairs import distances
 from foilstudy.model.contact.passing import passable_share
 from foilstudy.model.contact.surface import Triangulation, largest_deviation
+from foilstudy.model.contact.windows import Windows
 
 _MET = 1.5
 """Gap within which blocks are followed, relative to the larger side of an element."""
-_MET_LEFT, _SKIN_LEFT = 0.3, 0.5
-"""Share of that gap, and of a skin, from which on either is made anew."""
+_MET_LEFT = 0.3
+"""Share of that gap from which on blocks are met anew."""
+_WINDOW, _BLOCKS, _KNOWN = 0.7, 1.2, 0.6
+"""Share of a skin that has to be left of a window, and of two blocks, lest they are seen to anew;
+and which distance of two blocks is enough for their pairs not to be listed."""
+_DUE = 0.4
+"""Share of a skin from which on blocks are looked at."""
 
 
 class FollowedPairs:
@@ -56,14 +64,21 @@ class FollowedPairs:
         self._thickness, self._cutoff, self._skin = thickness, thickness + reach, skin
         self._met = _MET * max(surface.patch.size_around, surface.patch.size_along)
         self._blocks, self._balls = blocks_of(surface), Balls(surface)
+        self._windows = Windows(surface)
+        self._distances = Distances(self._blocks, self._cutoff + self._met)
         self._active: np.ndarray | None = None
-        self._measured_at, self._near = knots, np.empty((0, 2), dtype=np.int64)
-        # by which two blocks may have come nearer, and until when their pairs are listed
+        self._measured_at = self._blocks_at = knots
+        # by which two blocks may have come nearer, and until when they are known or listed
+        self._near = np.empty((0, 2), dtype=np.int64)
         self._travel = self._until = np.empty(0)
+        # windows that are listed, and what is left of their skins
+        self._listed, self._window_left = np.empty(0, dtype=np.int64), np.empty(self._windows.count)
         self.pairs, self.edges = np.empty((0, 4), dtype=np.int64), np.empty(0, dtype=bool)
+        # of pairs: a window, or the number of all knots and that of two blocks
         self._owner = np.empty(0, dtype=np.int64)
         self._meet()
-        self._list(self._until < 0.0, self._skin)
+        self._see_to_blocks(self._until < 0.0, self._skin)
+        self._see_to_windows(_WINDOW * skin, skin)
         self._measure()
 
     def shift(self, knots: np.ndarray) -> float:
@@ -82,10 +97,10 @@ class FollowedPairs:
         there = self.knots + motion
         used = 2.0 * largest_deviation(there, self._measured_at)
         if used >= self._rest:
-            self._renew()
+            self.renew()
             used = 2.0 * largest_deviation(there, self._measured_at)
             if used >= self._rest:
-                self._list_for(motion)
+                self._list_for(there)
         looked_at = np.searchsorted(self._slack, used)
         return passable_share(
             self.knots, motion, self.pairs[:looked_at], self.edges[:looked_at],
@@ -101,7 +116,7 @@ class FollowedPairs:
         if self._active is None:
             used = 2.0 * largest_deviation(self.knots, self._measured_at)
             if used >= self._rest:
-                self._renew()
+                self.renew()
                 used = 0.0
             looked_at = np.searchsorted(self._slack, used)
             pairs, edges = self.pairs[:looked_at], self.edges[:looked_at]
@@ -123,53 +138,61 @@ class FollowedPairs:
         used = 2.0 * largest_deviation(self.knots, self._measured_at)
         return min(self._rest, float(self._slack[:1].min(initial=np.inf))) - used
 
+    def renew(self) -> None:
+        """Measure all pairs in the shape reached last, and list what has to be."""
+        used = 2.0 * largest_deviation(self.knots, self._blocks_at)
+        if min(self._blocks_rest, self._met_rest) - used < _DUE * self._skin:
+            self._travel += self._blocks.closings(self.knots, self._blocks_at, self._near)
+            self._blocks_at = self.knots
+            left = self._met - 2.0 * largest_deviation(self.knots, self._met_at)
+            if left < _MET_LEFT * self._met:
+                self._meet()
+            self._see_to_blocks(self._until - self._travel < _BLOCKS * self._skin, self._skin)
+        if len(self._listed):
+            motion = self.knots - self._measured_at
+            self._window_left[self._listed] -= self._windows.motions(motion, self._listed)
+        self._see_to_windows(_WINDOW * self._skin, self._skin)
+        self._measure()
+
     def _meet(self) -> None:
         """Find the blocks that are near in the shape reached last; what is known of them is kept.
 
         Of others nothing is within their gap, which holds until they are met again.
         """
-        before, self._met_at = self._near, self.knots
-        self._near, gaps = self._blocks.near(self.knots, self._cutoff + self._met)
-        count = len(self._blocks.knot_starts)
-        old, new = (pairs[:, 0] * count + pairs[:, 1] for pairs in (before, self._near))
-        _, here, there = np.intersect1d(new, old, assume_unique=True, return_indices=True)
-        rest = np.where(gaps > self._cutoff + self._skin, gaps - self._cutoff, -1.0)
-        rest[here] = (self._until - self._travel)[there]
-        self._until, self._travel = rest, np.zeros(len(new))
-        renumbered = np.full(len(old), -1)
-        renumbered[there] = here
-        owner = renumbered[self._owner]
-        self.pairs, self.edges = self.pairs[owner >= 0], self.edges[owner >= 0]
-        self._owner = owner[owner >= 0]
+        before, left, self._met_at = self._near, self._until - self._travel, self.knots
+        self._near = self._blocks.near(self.knots, self._cutoff + self._met)
+        starts = np.searchsorted(before[:, 0], np.arange(len(self._blocks) + 1))
+        where = np.empty(len(self._near), dtype=np.int64)
+        kept_pairs(self._near, before, starts, where)
+        met = np.flatnonzero(where >= 0)
+        self._until, self._travel = np.full(len(where), -1.0), np.zeros(len(where))
+        self._until[met] = left[where[met]]
+        of_blocks = self._owner >= self._surface.count
+        if of_blocks.any():
+            renumbered = np.full(len(before), -1)
+            renumbered[where[met]] = met + self._surface.count
+            owner = self._owner
+            owner[of_blocks] = renumbered[owner[of_blocks] - self._surface.count]
+            self._keep(owner >= 0)
 
-    def _renew(self) -> None:
-        """List what has to be, and measure all pairs, in the shape reached last."""
-        self._travel += self._bounds(self.knots - self._measured_at)
-        left = self._met - 2.0 * largest_deviation(self.knots, self._met_at)
-        if left < _MET_LEFT * self._met:
-            self._meet()
-        self._list(self._until - self._travel < _SKIN_LEFT * self._skin, self._skin)
-        self._measure()
+    def _keep(self, kept: np.ndarray) -> None:
+        self.pairs, self.edges, self._owner = self.pairs[kept], self.edges[kept], self._owner[kept]
 
-    def _list_for(self, motion: np.ndarray) -> None:
+    def _list_for(self, there: np.ndarray) -> None:
         """List what a motion may bring near that is longer than the skins."""
-        bounds = self._bounds(motion)
+        self._travel += self._blocks.closings(self.knots, self._blocks_at, self._near)
+        self._blocks_at = self.knots
+        bounds = self._blocks.closings(there, self.knots, self._near)
         stale = self._travel + bounds >= self._until
         if stale.any():
-            self._list(stale, max(self._skin, 1.001 * float(bounds[stale].max())))
-            self._measure()
+            self._see_to_blocks(stale, max(self._skin, 1.001 * float(bounds[stale].max())))
+        bounds = self._windows.motions(there - self.knots, np.arange(self._windows.count))
+        skin = max(self._skin, 1.001 * float(bounds.max()))
+        self._see_to_windows(1.001 * bounds, skin)
+        self._measure()
 
-    def _bounds(self, motion: np.ndarray) -> np.ndarray:
-        """Of how much nearer the blocks of every pair come."""
-        blocks = self._blocks
-        count = len(blocks.knot_starts) - 1
-        means, most, bounds = np.empty((count, 3)), np.empty(count), np.empty(len(self._near))
-        spread(motion, blocks.knots, blocks.knot_starts, means, most)
-        closing_bounds(means, most, self._near, bounds)
-        return bounds
-
-    def _list(self, stale: np.ndarray, skin: float) -> None:
-        """List the pairs of some blocks anew, in the shape reached last.
+    def _see_to_blocks(self, stale: np.ndarray, skin: float) -> None:
+        """Know anew how far some blocks are apart in the shape reached last, or list their pairs.
 
         Parameters
         ----------
@@ -178,28 +201,76 @@ class FollowedPairs:
             m.
         """
         which = np.flatnonzero(stale)
-        gaps = self._blocks.gaps(self.knots, self._near[which])
-        far = gaps > self._cutoff + skin
-        self._until[which] = self._travel[which] + np.where(far, gaps - self._cutoff, skin)
-        kept, which = ~stale[self._owner], which[~far]
-        distance, near = self._cutoff + skin, self._near[which]
-        self._balls.renew(self.knots, self._blocks.elements_of(near))
-        elements = self._blocks.near_elements(near, self._balls.elements, distance)
+        if len(which):
+            enough = self._cutoff + (_KNOWN * skin if skin == self._skin else skin)
+            known = self._distances.known(self.knots, self._near, which, enough)
+            far = known >= enough
+            self._until[which] = self._travel[which] + np.where(far, known - self._cutoff, skin)
+            first = self._surface.count
+            of_blocks = np.flatnonzero(self._owner >= first)
+            if len(of_blocks):
+                kept = np.ones(len(self._owner), dtype=bool)
+                kept[of_blocks] = ~stale[self._owner[of_blocks] - first]
+                self._keep(kept)
+            if not far.all():
+                which = which[~far]
+                near = self._near[which]
+                self._balls.renew(self.knots, self._blocks.elements_of(near))
+                found = self._blocks.near_elements(
+                    self.knots, near, self._balls.elements, self._cutoff + skin
+                )
+                self._list(found[:, :2], first + which[found[:, 2]], skin)
+        self._blocks_rest = float(np.min(self._until - self._travel))
+        self._met_rest = self._met - 2.0 * largest_deviation(self.knots, self._met_at)
+
+    def _see_to_windows(self, needed: float | np.ndarray, skin: float) -> None:
+        """Look at all windows in the shape reached last, and list the pairs of some.
+
+        Parameters
+        ----------
+        needed : float or ndarray, shape (windows,)
+            By how much what belongs to a window may come nearer from here on, m.
+        skin : float
+            m.
+        """
+        near, least = self._windows.near(self.knots, self._cutoff + needed)
+        self._windows_rest = least - self._cutoff
+        listed = self._listed
+        if len(listed):
+            wanted = needed if np.isscalar(needed) else needed[listed]
+            kept = near[listed] & (self._window_left[listed] >= wanted)
+            if not kept.all():
+                gone = np.zeros(self._surface.count + 1, dtype=bool)
+                gone[listed[~kept]] = True
+                self._keep(~gone[np.minimum(self._owner, self._surface.count)])
+                self._listed = listed = listed[kept]
+            near[listed] = False
+        new = np.flatnonzero(near)
+        if len(new):
+            elements, place = self._windows.element_pairs(new)
+            self._balls.renew(self.knots, np.unique(elements))
+            self._list(elements, new[place], skin)
+            self._listed = listed = np.concatenate([listed, new])
+            self._window_left[new] = skin
+        if len(listed):
+            self._windows_rest = min(self._windows_rest, self._window_left[listed].min())
+
+    def _list(self, elements: np.ndarray, owner: np.ndarray, skin: float) -> None:
+        """List the pairs of some elements, two each, in the shape reached last."""
         pairs, edges, source = candidates(
-            self._surface, self.knots, distance, self._balls, elements[:, :2]
+            self._surface, self.knots, self._cutoff + skin, self._balls, elements
         )
-        self.pairs = np.concatenate([self.pairs[kept], pairs])
-        self.edges = np.concatenate([self.edges[kept], edges])
-        self._owner = np.concatenate([self._owner[kept], which[elements[source, 2]]])
+        self.pairs = np.concatenate([self.pairs, pairs])
+        self.edges = np.concatenate([self.edges, edges])
+        self._owner = np.concatenate([self._owner, owner[source]])
 
     def _measure(self) -> None:
         """Sort all pairs by what is left of their gap beyond the reach."""
+        self._measured_at, self._active = self.knots, None
+        used = 2.0 * largest_deviation(self.knots, self._blocks_at)
+        self._rest = min(self._windows_rest, self._blocks_rest - used, self._met_rest - used)
         slack = distances(self.knots, self.pairs, self.edges) - self._cutoff
         order = np.argsort(slack, kind="stable")
         self._slack = slack[order]
         self.pairs, self.edges = self.pairs[order], self.edges[order]
-        self._owner, self._measured_at, self._active = self._owner[order], self.knots, None
-        self._rest = min(
-            self._met - 2.0 * largest_deviation(self.knots, self._met_at),
-            float(np.min(self._until - self._travel)),
-        )
+        self._owner = self._owner[order]

@@ -100,6 +100,7 @@ class RingPlanes(Springs):
 
     def numbers(self, state: None = None) -> dict[str, float]:
         """Of the last shape with a finite energy, by the names of quantities."""
+        self._arrive()
         return {"contact_knots_at_rings": float(len(self._closed))}
 
     def knots(self) -> np.ndarray:
@@ -131,6 +132,9 @@ class RingPlanes(Springs):
 
     def _closed_knots(self) -> np.ndarray:
         return self._closed
+
+    def _has_begun(self) -> bool:
+        return self._knots is not None
 
     def _reached(self, points: np.ndarray) -> bool:
         knots = self._surface.knots(points)

@@ -30,6 +30,7 @@ class Springs:
 
     def __init__(self, surface: Triangulation, membrane_stiffness: float):
         self._surface, self.membrane_stiffness = surface, membrane_stiffness
+        self._standing: np.ndarray | None = None
 
     @property
     def surface(self) -> Triangulation:
@@ -52,6 +53,20 @@ class Springs:
         raise NotImplementedError
 
     def _reached(self, points: np.ndarray) -> bool:
+        raise NotImplementedError
+
+    def stand_at(self, points: np.ndarray) -> None:
+        """Note the shape that what is asked for before any force is of."""
+        self._standing = points
+
+    def _arrive(self) -> None:
+        """Go to that shape, if none has been reached."""
+        if not self._has_begun():
+            if self._standing is None:
+                raise ValueError("nothing is known of contacts before a force has been asked for")
+            self._reached(self._standing)
+
+    def _has_begun(self) -> bool:
         raise NotImplementedError
 
     def touches(self) -> bool:

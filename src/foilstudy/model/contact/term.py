@@ -29,6 +29,8 @@ from foilstudy.model.shell.section import Section
 
 _CLOSING = 0.95
 """Share of its gap by which a pair may close between two shapes that are evaluated."""
+_RINGS = 4.0
+"""Motion of the rings that is reckoned with, relative to that in the last step."""
 _FAR = 0.5
 """Motion relative to the side of an element beyond which a shape is judged by itself, not by the
 way to it."""
@@ -100,10 +102,11 @@ class SelfContact(Springs):
         self._size = stiffness * membrane * self.reach**2
         self._rest = self._surface.knots(section.reference)
         self._followed: FollowedPairs | None = None
-        # a shape where nothing was within the reach and how much nearer knots may have come since,
-        # the last shape, and whether the pairs have not seen it
+        # a shape where nothing was within the reach and how much nearer knots may come from it on,
+        # the last shape, whether the pairs have not seen it, and what is left there
         self._calm: tuple[np.ndarray, float] | None = None
         self._unseen, self._is_behind, self._left = np.empty(0), False, 0.0
+        self._ring_motion = 0.0  # in the last step, about
         self._closed: tuple[np.ndarray | None, Closed | None] = None, None
 
     def __repr__(self) -> str:
@@ -126,9 +129,9 @@ class SelfContact(Springs):
         out[:] = 0.0
         if not self._reached(points):
             return np.array([np.inf])
-        closed = self.closed()
-        if not len(closed):
+        if not self.touches():
             return np.zeros(1)
+        closed = self.closed()
         forces = np.zeros_like(self._followed.knots)
         energy = exert(
             self._followed.knots, closed.pairs, closed.edges, closed.full, self.thickness,
@@ -153,6 +156,9 @@ class SelfContact(Springs):
             self._span, self._size,
         )  # fmt: skip
         return self.on_points(closed.pairs, blocks)
+
+    def _has_begun(self) -> bool:
+        return self._followed is not None
 
     def _reached(self, points: np.ndarray) -> bool:
         """Go to a shape, unless it or the way to it crosses."""
@@ -186,6 +192,10 @@ class SelfContact(Springs):
         followed.move(knots)
         return True
 
+    def rests(self, points: np.ndarray) -> bool:
+        """See `solve.problem.Resting`."""
+        return self._still(points)
+
     def _still(self, points: np.ndarray) -> bool:
         """Whether for sure nothing has come within the reach since a shape where nothing was."""
         if self._calm is None:
@@ -193,15 +203,19 @@ class SelfContact(Springs):
         calm, rest = self._calm
         self._left = rest - 2.0 * largest_control_deviation(points, calm)
         if self._left > 0.0:
+            way = points[:, -1, 0] - self._unseen[:, -1, 0]
+            self._ring_motion = float(np.sqrt(way @ way))
             np.copyto(self._unseen, points)
             self._is_behind = True
             return True
-        self._calm, self._is_behind = None, False
+        self._catch_up()
+        self._calm = None
         return False
 
     def _settle_down(self, points: np.ndarray) -> None:
         """Note a shape where nothing is within the reach, and how far it may be left unseen."""
         self._left = self._followed.rest()
+        self._calm = None
         if self._left > 0.0:
             self._calm, self._unseen = (points.copy(), self._left), points.copy()
 
@@ -238,6 +252,8 @@ class SelfContact(Springs):
 
     def numbers(self, state: None = None) -> dict[str, float]:
         """Of the last shape with a finite energy, by the names of quantities."""
+        self._arrive()
+        self._catch_up()
         closed = self.closed()
         gap = self._followed.least_distance() - self.thickness
         return {
@@ -251,8 +267,25 @@ class SelfContact(Springs):
         return self._catch_up().knots
 
     def free_way(self, free: np.ndarray) -> bool:
-        """Whether a motion of the control points between the rings meets nothing, for sure."""
-        return self._calm is not None and 4.0 * largest_motion(free) < self._left
+        """Whether a motion of the control points between the rings meets nothing, for sure.
+
+        The rings are taken to move hardly more than in the last step; if they do, the way is
+        judged when it has been gone.
+        """
+        if self._calm is None:
+            return False
+        needed = 2.0 * largest_motion(free) + _RINGS * self._ring_motion
+        if needed < self._left:
+            return True
+        if not 2.0 * needed < self._calm[1]:
+            return False
+        self._catch_up().renew()
+        self._settle_down(self._unseen)
+        return needed < self._left
+
+    def touches(self) -> bool:
+        """See `Springs`."""
+        return self._calm is None and super().touches()
 
     def passable_share(self, motion: np.ndarray, closing: float) -> float:
         """Part of a motion of the knots in which no gap closes by more than a share of it.

@@ -122,14 +122,16 @@ class TouchingMass:
         SolveError
             If the rings alone would close a gap, however still the sheet stood.
         """
-        if not np.isfinite(momentum).all():
+        if self._touch() and not np.isfinite(momentum).all():
             return self._shell.velocity(momentum)
         factor = self._mass_factor(momentum)
         velocity = self._shell.velocity(momentum)
         if factor > 1.0:
             velocity = velocity / factor
-        if all(each.free_way(velocity) for each in self._contacts):
+        if all([each.free_way(velocity) for each in self._contacts]):
             self._knots = None
+            return velocity
+        if not np.isfinite(velocity).all():
             return velocity
         motion, rings = self._contacts[0].knot_motion(velocity), self._ring_motion()
         share = self._passable(motion, rings)
@@ -164,9 +166,12 @@ class TouchingMass:
     def _passed(self, motion: np.ndarray) -> float:
         return min(each.passable_share(motion, _CLOSING) for each in self._contacts)
 
+    def _touch(self) -> bool:
+        return any([each.touches() for each in self._contacts])
+
     def _mass_factor(self, momentum: np.ndarray) -> float:
         """Factor on the mass that keeps a step stable, measured every few steps."""
-        if not any(each.touches() for each in self._contacts):
+        if not self._touch():
             self._probe, self._since = None, 0
             return 1.0
         if self._since % _EVERY == 0:
