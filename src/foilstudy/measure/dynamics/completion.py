@@ -12,6 +12,8 @@ from foilstudy.measure.dynamics.structure import INTERFACE, Structure
 _BLOCKS_MAX, _IDLE_MAX = 12, 3
 """Blocks that are added, and those in a row that bring no mode."""
 _ORTHONORMAL = 1e-8
+_MOVED = 1e-3
+"""By how much, relatively, the last block may move an eigenfrequency below the limit."""
 
 
 def completed_modes(
@@ -50,19 +52,22 @@ def completed_modes(
     k, m = structure.stiffness.interior, structure.mass.interior
     space = BlockKrylov(m, model.basis)
     load = m @ structure.static.constraint_modes + structure.mass.coupling
-    missing, idle = np.inf, 0
+    missing, idle, values = np.inf, 0, np.empty(0)
     for _ in range(_BLOCKS_MAX):
         load = space.append(inverse, load)
         if not load.shape[1]:
             return None
         stiffness = projected(k, space.vectors, stiffness)
-        before = missing
-        missing = inverse.negative_eigenvalues - (eigvalsh(stiffness) < limit).sum()
-        if not missing:
+        before, missing, last = missing, inverse.negative_eigenvalues, values
+        values = eigvalsh(stiffness)
+        values = values[values < limit]
+        missing -= values.size
+        # that there are enough does not say that each is where it belongs
+        if not missing and last.size == values.size and np.all(last <= values * (1 + 2 * _MOVED)):
             values, vectors = eigh(stiffness)
             frequencies = np.sqrt(np.maximum(values, 0.0)) / (2 * np.pi)
             return frequencies, space.vectors @ vectors[:, :kept]
-        idle = 0 if missing < before else idle + 1
+        idle = 0 if missing < before or not missing else idle + 1
         if idle == _IDLE_MAX:
             return None
     return None
