@@ -11,7 +11,7 @@ from scipy.sparse.linalg import eigsh
 
 from foilstudy.config import Dynamics
 from foilstudy.config.scene import dynamics_of
-from foilstudy.linalg import factorise
+from foilstudy.linalg import factorise, modes_below
 from foilstudy.measure import choices
 from foilstudy.measure.dynamics import (
     DEFINITIONS,
@@ -42,6 +42,7 @@ from foilstudy.measure.stiffness import InterfaceSystem, fixed_stiffness
 from foilstudy.measure.stiffness.rings import interface_rigid_modes
 from foilstudy.model.foil import Foil
 from foilstudy.model.shell.elements.corner import Corner
+from foilstudy.pipeline import vibration
 from foilstudy.pipeline.shape import Shape
 from foilstudy.pipeline.structures import prestressed_structure, stress_free_structure
 from foilstudy.pipeline.vibration import vibration_of
@@ -424,6 +425,29 @@ def test_tighter_tolerance_takes_more_moments(structure, models):
     tighter = RationalKrylov(replace(WANTED, tolerance=1e-6)).reduce(structure)
     assert tighter.size > models["rational_krylov"].size
     assert tighter.error_estimate <= 1e-6
+
+
+@pytest.mark.parametrize("blocks", [3, 20])
+def test_shifts_go_on_where_another_one_has_not_been(blocks, structure):
+    """Also where no change is known yet, which had once set two shifts at one frequency."""
+    wanted = replace(WANTED, tolerance=1e-4)
+    model = RationalKrylov(wanted, moments_per_shift=blocks, shifts_max=60).reduce(structure)
+    assert model.error_estimate <= 1e-4 and model.valid_to_hz == BAND_HZ
+
+
+def test_modes_that_a_model_lacks_are_found_by_moments_at_the_limit(structure, monkeypatch):
+    """The eigenfrequencies are those of a search for all of them, which is not begun."""
+    options = DynamicsOptions(highest_hz=BAND_HZ, eigenfrequencies=8, mode_shapes=2)
+    k, m = structure.stiffness.interior, structure.mass.interior
+    exact = np.sqrt(modes_below(k, m, (2 * np.pi * BAND_HZ) ** 2).eigenvalues) / (2 * np.pi)
+    poor = RationalKrylov(WANTED, moments_per_shift=6, shifts_max=1).reduce(structure)
+    assert (poor.clamped_eigenfrequencies() < BAND_HZ).sum() < exact.size
+    monkeypatch.setattr(DynamicsOptions, "reduced", lambda *_: replace(poor, valid_to_hz=BAND_HZ))
+    monkeypatch.setattr(vibration, "modes_below", None)
+    found = vibration_of(structure, options)
+    assert found.mode_count[-1] == exact.size
+    np.testing.assert_allclose(found.eigenfrequencies, exact[:8], rtol=options.tolerance)
+    np.testing.assert_allclose(found.mode_shapes.T @ (m @ found.mode_shapes), np.eye(2), atol=1e-8)
 
 
 def test_moments_that_run_out_are_no_success(structure):

@@ -22,6 +22,8 @@ from foilstudy.linalg import (
     mass_orthonormal,
     modes_below,
     pardiso,
+    projected,
+    shifted,
 )
 from foilstudy.linalg.pardiso import PardisoFactorisation
 from foilstudy.linalg.superlu import SuperLUFactorisation
@@ -106,6 +108,28 @@ def test_block_krylov_space_is_orthonormal_and_holds_what_is_new():
     new = mass_orthonormal(np.hstack([known, load, 0 * load[:, :1]]), mass, space.vectors)
     assert new.shape[1] == 4
     np.testing.assert_allclose(space.vectors.T @ (mass @ new), 0, atol=1e-10)
+
+
+def test_a_krylov_space_of_two_shifts_is_orthonormal_and_begins_with_what_is_known():
+    """Blocks that wait for each other, a new shift, and a projection that grows with the space."""
+    stiffness, mass = clamped_cylinder()
+    rng = np.random.default_rng(1)
+    space, projection = BlockKrylov(mass), np.empty((0, 0))
+    for shift, blocks in ((0.0, 21), (1e6, 9)):
+        inverse = shifted(stiffness, mass, shift)[0]
+        load = rng.standard_normal((stiffness.shape[0], 5))
+        for _ in range(blocks):
+            load = space.append(inverse, load)
+        projection = projected(stiffness, space.vectors, projection)
+    vectors = space.vectors
+    assert vectors.shape[1] == space.size == 150
+    np.testing.assert_allclose(vectors.T @ (mass @ vectors), np.eye(150), atol=1e-12)
+    np.testing.assert_allclose(projection, vectors.T @ (stiffness @ vectors), atol=1e-3, rtol=1e-9)
+    more = BlockKrylov(mass, vectors)
+    for _ in range(3):
+        load = more.append(inverse, load)
+    assert np.array_equal(more.vectors[:, :150], vectors) and more.size == 165
+    np.testing.assert_allclose(more.vectors.T @ (mass @ more.vectors), np.eye(165), atol=1e-12)
 
 
 @pytest.mark.parametrize("count", [5, 400])

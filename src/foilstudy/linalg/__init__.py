@@ -13,7 +13,7 @@ from foilstudy.linalg.eigenpairs import (
 )
 from foilstudy.linalg.errors import SolveError
 from foilstudy.linalg.factorisation import Factorisation, backend, factorise
-from foilstudy.linalg.krylov import BlockKrylov, mass_orthonormal
+from foilstudy.linalg.krylov import BlockKrylov, mass_orthonormal, projected
 from foilstudy.linalg.updated import Updated, combined, updated
 
 __all__ = [
@@ -34,6 +34,7 @@ __all__ = [
     "lowest_modes",
     "mass_orthonormal",
     "modes_below",
+    "projected",
     "shifted",
     "updated",
 ]

@@ -11,6 +11,7 @@ from foilstudy.measure.dynamics import (
     DynamicsOptions,
     ReducedModel,
     Structure,
+    completed_modes,
     dynamic_stiffness,
     eigenfrequency_errors,
 )
@@ -86,8 +87,9 @@ class _Modes:
 def _modes_of(options: DynamicsOptions, model: ReducedModel, structure: Structure) -> _Modes:
     """From the reduced model; directly what it does not have or is not right about.
 
-    The rings of a symmetric sheet do not move all its modes, as the inertia of the whole structure
-    tells, and modes beyond the band need not be in the model.
+    The inertia of the whole structure tells how many there are. A model may not have those near the
+    end of its band; the rings of a symmetric sheet do not move all its modes; and modes beyond the
+    band need not be in the model.
     """
     kept = max(options.eigenfrequencies, options.mode_shapes)
     all_hz = model.clamped_eigenfrequencies()
@@ -95,11 +97,15 @@ def _modes_of(options: DynamicsOptions, model: ReducedModel, structure: Structur
     limit = (2 * np.pi * min(model.valid_to_hz, options.highest_hz)) ** 2
     k, m = structure.stiffness.interior, structure.mass.interior
     factor, limit = shifted(k, m, limit)
-    count = factor.negative_eigenvalues
+    if factor.negative_eigenvalues != (all_hz < np.sqrt(limit) / (2 * np.pi)).sum():
+        completed = completed_modes(structure, model, factor, limit, kept)
+        if completed is not None:
+            all_hz, shapes = completed
+            frequencies = all_hz[:kept]
+        else:
+            all_hz = np.sqrt(modes_below(k, m, limit).eigenvalues) / (2 * np.pi)
+            frequencies = frequencies[:0]
     del factor
-    if count != (all_hz < np.sqrt(limit) / (2 * np.pi)).sum():
-        all_hz = np.sqrt(modes_below(k, m, limit).eigenvalues) / (2 * np.pi)
-        frequencies = frequencies[:0]
     # a fifth, as the estimate may see too little
     if frequencies.size == kept:
         errors = eigenfrequency_errors(structure, frequencies, shapes)

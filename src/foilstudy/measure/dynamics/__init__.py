@@ -1,6 +1,7 @@
 """Dynamic stiffness between the rings: damping, response, full-order truth; `reductions` apart."""
 
 from foilstudy.measure.dynamics.accuracy import Wanted, eigenfrequency_errors, residual_estimate
+from foilstudy.measure.dynamics.completion import completed_modes
 from foilstudy.measure.dynamics.damping import (
     Damping,
     ModalDamping,
@@ -42,6 +43,7 @@ __all__ = [
     "StructuralDamping",
     "Wanted",
     "accelerance",
+    "completed_modes",
     "directional_stiffness",
     "eigenfrequency_errors",
     "dynamic_stiffness",

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from foilstudy.linalg import BlockKrylov, shifted
+from foilstudy.linalg import BlockKrylov, projected, shifted
 from foilstudy.measure.dynamics.accuracy import CHECKS, Wanted, with_estimate
 from foilstudy.measure.dynamics.reduction import ReducedModel, project
 from foilstudy.measure.dynamics.response import dynamic_stiffness, relative_error
@@ -22,8 +22,12 @@ from foilstudy.measure.dynamics.structure import INTERFACE, Structure
 _FIRST_SHIFT = 0.6
 """Share of the highest frequency. With equally many vectors one shift is as accurate as two to
 five (docs/dynamics.md), which cost a factorisation each."""
-_MODES_SHARE, _GROWTH = 1.5, 1.05
-"""When to check: vectors over modes below the shift, and over those of the check before."""
+_MODES_SHARE, _CHECK_EVERY = 1.5, 2 * INTERFACE
+"""When to check: vectors over modes below the shift, and after so many more. The error falls by a
+factor of about ten meanwhile."""
+_APART = 0.05
+"""By how much a new shift differs from all others: the loads of the first block at a shift that has
+served already are known."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +44,7 @@ class RationalKrylov:
     """
 
     wanted: Wanted = field(default_factory=Wanted)
-    moments_per_shift: int = 48
+    moments_per_shift: int = 128
     shifts_max: int = 6
 
     @classmethod
@@ -60,12 +64,12 @@ class RationalKrylov:
         frequencies = wanted.checked_at(CHECKS)
         space = _Space(structure)
         before, change = None, np.full(CHECKS, np.inf)
-        shift_hz = _FIRST_SHIFT * wanted.highest_hz
-        for shift in range(self.shifts_max):
-            for more in space.moments(shift_hz, self.moments_per_shift):
+        shifts = [_FIRST_SHIFT * wanted.highest_hz]
+        while True:
+            for more in space.moments(shifts[-1], self.moments_per_shift):
                 if not more:
                     # of the first shift: the space holds all that the rings can move
-                    change = change if shift else np.zeros(CHECKS)
+                    change = change if shifts[1:] else np.zeros(CHECKS)
                     return with_estimate(space.model(), wanted, frequencies, change)
                 now = dynamic_stiffness(space.model(), frequencies, wanted.damping)
                 if before is not None:
@@ -73,8 +77,18 @@ class RationalKrylov:
                 if change.max() <= wanted.tolerance:
                     return with_estimate(space.model(), wanted, frequencies, change)
                 before = now
-            shift_hz = float(frequencies[change.argmax()])
-        return with_estimate(space.model(), wanted, frequencies, change)
+            if len(shifts) == self.shifts_max:
+                return with_estimate(space.model(), wanted, frequencies, change)
+            shifts.append(_new_shift(shifts, frequencies, change))
+
+
+def _new_shift(shifts: list[float], frequencies: np.ndarray, change: np.ndarray) -> float:
+    """Where the change is largest; without one, or near another shift, the farthest from these."""
+    distance = np.abs(np.subtract.outer(frequencies, shifts)).min(axis=1) / frequencies[-1]
+    largest = change.argmax()
+    if np.isfinite(change).all() and distance[largest] > _APART:
+        return float(frequencies[largest])
+    return float(frequencies[distance.argmax()])
 
 
 class _Space:
@@ -103,7 +117,7 @@ class _Space:
                 yield False
                 return
             if moment == count or self._krylov.size >= check_at:
-                check_at = max(self._krylov.size + 2 * INTERFACE, _GROWTH * self._krylov.size)
+                check_at = self._krylov.size + _CHECK_EVERY
                 yield True
 
     def model(self) -> ReducedModel:
@@ -122,8 +136,5 @@ class _Space:
     def _project(self) -> None:
         """Take the newest vectors into the projected matrices."""
         basis, old = self._krylov.vectors, self._stiffness.shape[0]
-        new = basis[:, old:]
-        rows = basis.T @ (self._structure.stiffness.interior @ new)
-        self._stiffness = np.block([[self._stiffness, rows[:old]], [rows[:old].T, rows[old:]]])
-        self._stiffness[old:, old:] = 0.5 * (rows[old:] + rows[old:].T)
-        self._coupling = np.vstack([self._coupling, new.T @ self._inertia])
+        self._stiffness = projected(self._structure.stiffness.interior, basis, self._stiffness)
+        self._coupling = np.vstack([self._coupling, basis[:, old:].T @ self._inertia])
