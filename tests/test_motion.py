@@ -173,9 +173,16 @@ class Watched(Problem):
         self._weights, self.amplitudes = weights, []
 
     def force(self, points, out):
+        self._note(points)
+        return super().force(points, out)
+
+    def gradient(self, points, out):
+        self._note(points)
+        super().gradient(points, out)
+
+    def _note(self, points):
         moved = points - self.reference
         self.amplitudes.append(self._weights @ vector(moved[:, RING_ROWS:-RING_ROWS]))
-        return super().force(points, out)
 
 
 @dataclass(frozen=True)
