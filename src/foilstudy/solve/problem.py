@@ -205,6 +205,8 @@ class Problem:
         self._joint: Joint | None = others[0] if joint else None
         self._first = 2 if joint else 1
         self._resting = tuple(isinstance(term, Resting) for term in self.terms)
+        self._giving_way = tuple(isinstance(term, GivingWay) for term in self.terms)
+        self.gives_way = any(self._giving_way)
         names = [name for term in self.terms for name in term.energy_names]
         # a second one of a name is told apart
         self.energy_names = tuple(
@@ -311,23 +313,18 @@ class Problem:
         tangent = sum(others, start=self.shell.tangent(points, own))
         return tangent[owned:-owned, owned:-owned].tocsr()
 
-    @property
-    def gives_way(self) -> bool:
-        """Whether the rings do not hold whatever pulls at them."""
-        return any(isinstance(term, GivingWay) for term in self.terms)
-
     def give_way(self, points: np.ndarray, force: np.ndarray, at_rest: bool) -> None:
         """Let the rings give way to the force on them, and their control points move."""
         self.state = tuple(
-            term.given_way(points, force, state, at_rest) if isinstance(term, GivingWay) else state
-            for term, state in zip(self.terms, self.state, strict=True)
+            term.given_way(points, force, state, at_rest) if gives_way else state
+            for term, state, gives_way in zip(self.terms, self.state, self._giving_way, strict=True)
         )
 
     def unheld(self, points: np.ndarray, force: np.ndarray) -> float:
         """Norm of the force on the rings that they do not hold, N."""
-        pairs = zip(self.terms, self.state, strict=True)
+        terms = zip(self.terms, self.state, self._giving_way, strict=True)
         return sum(
-            (t.unheld(points, force, s) for t, s in pairs if isinstance(t, GivingWay)), start=0.0
+            (t.unheld(points, force, s) for t, s, gives_way in terms if gives_way), start=0.0
         )
 
     def numbers(self) -> dict[str, float]:
