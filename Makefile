@@ -34,11 +34,11 @@ test-slow: $(DEVELOPMENT)
 	@$(BIN)/python -m pytest -m "slow or not slow"
 
 lint: $(DEVELOPMENT)
-	@$(BIN)/ruff check src tests workflow/scripts docs/page_numbers.py docs/page_blocks
+	@$(BIN)/ruff check src tests workflow/scripts benchmarks docs
 
 format: $(DEVELOPMENT)
-	@$(BIN)/ruff format src tests workflow/scripts docs/page_numbers.py docs/page_blocks
-	@$(BIN)/ruff check --fix src tests workflow/scripts
+	@$(BIN)/ruff format src tests workflow/scripts benchmarks docs/*.py docs/page_blocks
+	@$(BIN)/ruff check --fix src tests workflow/scripts benchmarks docs
 
 lock: $(DEVELOPMENT)
 	@$(LOCK) --upgrade requirements/requirements.in -o requirements/requirements.txt

@@ -43,13 +43,12 @@ def test_every_way_is_a_configuration(name):
     assert len(mine) == seeds * len(STEPS[name].thickness_um or MODELS.thickness_um)
 
 
-@pytest.mark.parametrize("step", [s for s in STEPS.values() if s.beside], ids=lambda s: s.name)
-def test_what_it_stands_beside_has_its_foils(step):
-    foils = {
-        name: {(c.thickness_um, c.height_mm) for c in CASES if c.step == name}
-        for name in (step.name, step.beside)
-    }
-    assert foils[step.name] <= foils[step.beside]
+def test_what_it_stands_beside_has_its_foils(tmp_path):
+    path = tmp_path / "truth.yaml"
+    text = (FOLDER / "truth.yaml").read_text()
+    path.write_text(text.replace("thickness_um: [500]", "thickness_um: [700]", 1))
+    with pytest.raises(ConfigError, match="foil of 700 um and 170 mm, which 'usual', beside which"):
+        read_settings(path, Ladder)
 
 
 def test_a_ratio_of_means_is_found_with_its_interval(outcome):
@@ -96,10 +95,11 @@ def test_what_stands_beside_nothing_known_is_refused(tmp_path):
         read_settings(path, Ladder)
 
 
-def test_a_stiffness_that_is_not_positive_makes_no_ratio():
+@pytest.mark.parametrize("step", ["kinetic", "usual"])
+def test_a_stiffness_that_is_not_positive_makes_no_ratio(step):
     def turned(case):
         result = record(case)
-        if case.step == "kinetic" and case.seed == 3:
+        if case.step == step and case.seed == 3 and case.thickness_um == 500:
             return Record("trials", case, result.result | {"true_stiffness": [-1.0, 1.0]}, None)
         return result
 

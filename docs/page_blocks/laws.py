@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterator
+from itertools import product
 
 import numpy as np
 
@@ -95,16 +96,17 @@ def thin(study: Study, thinner: Study) -> Iterator[str]:
             (together, sorted({*left_out, *study.thicknesses})),
         ):
             body.append([direction, f"{listed(thicknesses)} µm", *_fitted(law.fit)])
-        for overlength in thinner.overlengths:
-            mean = MeanInterval.of(others.value[others.overlength_percent == overlength])
-            said = float(alone.law.stiffness(overlength, left_out[0]))
+        for thickness, overlength in product(left_out, thinner.overlengths):
+            here = (others.thickness_um == thickness) & (others.overlength_percent == overlength)
+            mean = MeanInterval.of(others.value[here])
+            said = float(alone.law.stiffness(overlength, thickness))
             value, low, high = (short(each, 3) for each in (mean.mean, mean.low, mean.high))
             measured = f"{value} ({low} to {high})"
             row = [short(overlength, 3), measured, short(said, 3), f"{mean.mean / said:.2f}"]
-            beside.append([direction, *row])
+            beside.append([direction, str(thickness), *row])
     yield from rows(["", "law over", "α", "β, overlength", "γ, thickness", "R²", "n"], body)
     yield ""
-    heads = ["", "overlength, %", f"{listed(left_out)} µm, N/m", "the law without it", "ratio"]
+    heads = ["", "µm", "overlength, %", "measured, N/m", "the law without it", "ratio"]
     yield from rows(heads, beside)
 
 

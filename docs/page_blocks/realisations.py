@@ -25,14 +25,16 @@ def dynamics(study: Study) -> Iterator[str]:
     for direction in DIRECTIONS:
         curves = thick.sel(direction=direction)
         risen = curves > 1.5 * curves.isel(frequency=0)
-        first = (
-            frequency.values[int(np.argmax(risen.isel(overlength=k).values))]
+        first = [
+            f"{frequency.values[at.argmax()]:.0f}"
+            if (at := risen.isel(overlength=k).values).any()
+            else "no"
             for k in range(study.overlengths.size)
-        )
+        ]
         yield (
             f"- *Rises from the first resonance on*: at {study.thickest} µm the {direction} "
-            "magnitude passes 1.5 times its value at 1 Hz at "
-            f"{', '.join(f'{f:.0f}' for f in first)} Hz (overlength {study.overlengths[0]:.2g} "
+            f"magnitude passes 1.5 times its value at {float(frequency[0]):g} Hz at "
+            f"{', '.join(first)} Hz (overlength {study.overlengths[0]:.2g} "
             f"to {study.overlengths[-1]:.2g} %)."
         )
     bands = ((0, 1.01), (200, 400), (400, 800))

@@ -90,7 +90,9 @@ def _cell(values: np.ndarray, resolved: bool) -> TrueCell:
     if not known.size:
         return TrueCell(np.nan, np.nan, 0, resolved)
     mean = float(known.mean())
-    scatter = float(known.std(ddof=1) / mean) if known.size > 1 else np.nan
+    # of values of either sign, a coefficient of variation says nothing
+    told = known.size > 1 and (known > 0).all()
+    scatter = float(known.std(ddof=1) / mean) if told else np.nan
     return TrueCell(mean, scatter, known.size, resolved)
 
 

@@ -1,4 +1,4 @@
-"""The chart that explains: level and exponents of all models beside the measured ones."""
+"""The chart that explains: levels and exponents of all models beside the measured ones."""
 
 from __future__ import annotations
 
@@ -6,13 +6,8 @@ import numpy as np
 
 from foilstudy.measure.stiffness.directional import DIRECTIONS
 from foilstudy.plot.style import PAGE_WIDTH, new_figure, styled, value_ticks
-from foilstudy.study.real.laws import CENTRE, TERMS, Found, Law
+from foilstudy.study.real.laws import EXPONENTS, Found, Law, levels
 
-_TITLES = {
-    "level": f"stiffness over the measured one,\n{CENTRE[1]:g} µm, {CENTRE[0]:g} %",
-    "overlength": "exponent of overlength",
-    "thickness": "exponent of thickness",
-}
 _MARKS = {"stress-free": "o", "stress-free, contacts stuck": "^", "with its stresses": "s"}
 _LEVELS = (0.03, 0.1, 0.3, 1, 3, 10, 30)
 _OFFSET = 0.22
@@ -23,18 +18,21 @@ def chart(found: Found):
     """A row of panels for each direction, a line for each model."""
     models = list(dict.fromkeys(law.words for law in found.laws if law.step != "experiment"))
     figure = new_figure(PAGE_WIDTH, 1.6 + 0.62 * len(models) * len(DIRECTIONS))
-    panels = figure.subplots(len(DIRECTIONS), len(TERMS), sharey=True)
+    titles = {term: f"over measured,\nat {at:.3g} %" for term, at in levels().items()}
+    titles |= {name: f"exponent of\n{name}" for name in EXPONENTS}
+    panels = figure.subplots(len(DIRECTIONS), len(titles), sharey=True)
     for row, direction in zip(panels, DIRECTIONS):
         laws = [law for law in found.laws if law.direction == direction]
-        for panel, term in zip(row, TERMS):
+        for panel, term in zip(row, titles):
             _panel(panel, laws, models, term)
+            if term in levels():
+                panel.set_xscale("log")
+                value_ticks(panel.xaxis, _LEVELS)
         row[0].set_ylabel(direction)
         row[0].set_yticks(range(len(models)), models)
         row[0].set_ylim(len(models) - 0.5, -0.5)
-        row[0].set_xscale("log")
-        value_ticks(row[0].xaxis, _LEVELS)
-    for panel, term in zip(panels[0], TERMS):
-        panel.set_title(_TITLES[term])
+    for panel, title in zip(panels[0], titles.values()):
+        panel.set_title(title)
     handles = {
         label: handle
         for panel in panels.ravel()
@@ -46,7 +44,7 @@ def chart(found: Found):
 
 def _panel(panel, laws: list[Law], models: list[str], term: str) -> None:
     for law in laws:
-        known = getattr(law, term)
+        known = law.terms[term]
         if law.step == "experiment":
             panel.axvline(known.value, color="k", lw=1.2, label="measured")
             if np.isfinite(known.low):

@@ -1,9 +1,10 @@
-"""Power laws of the stiffness of every model, beside the measured ones."""
+"""Stiffness of every model over the measured one, and its power laws beside the measured ones."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 import statsmodels.api as sm
@@ -23,9 +24,7 @@ STATES = {
     "with its stresses": ("true_stiffness", "prestressed_stiffness"),
 }
 """By what they are called here, quantities: the first one that there is."""
-CENTRE = 31.0, 250.0
-"""Overlength (%) and thickness (um) at which levels are compared: the middle of the sweep."""
-TERMS = ("level", "overlength", "thickness")
+EXPONENTS = ("overlength", "thickness")
 
 
 @dataclass(frozen=True)
@@ -44,17 +43,16 @@ class Known:
 
 @dataclass(frozen=True)
 class Law:
-    """Power law of one direction by one model.
+    """Stiffness of one model in one direction.
 
     Attributes
     ----------
     step, words : str
         Name of the model and what it is called; ``experiment`` and ``simulation`` are published.
     state, direction : str
-    level : Known
-        Stiffness at `CENTRE` over that of the measured law.
-    overlength, thickness : Known
-        Exponents.
+    terms : mapping of str to Known
+        By `levels` stiffness over the measured law at one overlength, geometric mean of all
+        thicknesses; by `EXPONENTS` those of a power law.
     count, of : int
         Realisations with a positive stiffness, and all.
     """
@@ -63,9 +61,7 @@ class Law:
     words: str
     state: str
     direction: str
-    level: Known
-    overlength: Known
-    thickness: Known
+    terms: Mapping[str, Known]
     count: int
     of: int
 
@@ -107,30 +103,40 @@ def _bounds() -> Iterator[Bounded]:
                 yield Bounded(thickness, height, direction, measured, float(bound))
 
 
+@cache
+def levels() -> dict[str, float]:
+    """Overlengths (%) at which levels are compared, by the names of their terms."""
+    heights = ladder(NAME).reference_height_mm
+    return {f"level_{height}mm": _overlength(height) for height in heights}
+
+
+def _overlength(height_mm: float) -> float:
+    return 100 * (height_mm * 1e-3 / GAP_HEIGHT - 1)
+
+
 def _published() -> Iterator[Law]:
     words = {"experiment": "measured", "simulation": "published simulation"}
+    thicknesses = np.array(ladder(NAME).thickness_um, float)
     for source, name in words.items():
         for direction, laws in published().power_laws.items():
             law = laws[source]
-            # that of the fit in its middle is not published; the exponents' deviations are
-            level = law.law.stiffness(*CENTRE) / _measured(direction)
-            yield Law(
-                source,
-                name,
-                "stress-free" if source == "simulation" else "real",
-                direction,
-                Known(level, np.nan, np.nan),
-                *(
-                    Known(e.value, e.value - NORMAL_95 * e.std, e.value + NORMAL_95 * e.std)
-                    for e in (law.beta, law.gamma)
-                ),
-                0,
-                0,
-            )
+            # intervals of the fits are published for the exponents alone
+            over = {
+                term: np.exp(np.mean(np.log(law.law.stiffness(at, thicknesses))))
+                / np.exp(np.mean(np.log(_measured(direction, at, thicknesses))))
+                for term, at in levels().items()
+            }
+            exponents = {
+                term: Known(e.value, e.value - NORMAL_95 * e.std, e.value + NORMAL_95 * e.std)
+                for term, e in zip(EXPONENTS, (law.beta, law.gamma))
+            }
+            terms = {term: Known(float(v), np.nan, np.nan) for term, v in over.items()} | exponents
+            state = "stress-free" if source == "simulation" else "real"
+            yield Law(source, name, state, direction, terms, 0, 0)
 
 
-def _measured(direction: str) -> float:
-    return float(published().power_laws[direction]["experiment"].law.stiffness(*CENTRE))
+def _measured(direction: str, overlength, thickness):
+    return published().power_laws[direction]["experiment"].law.stiffness(overlength, thickness)
 
 
 def _laws(results: dict[Trial, dict]) -> Iterator[Law]:
@@ -139,20 +145,36 @@ def _laws(results: dict[Trial, dict]) -> Iterator[Law]:
         for state, quantities in STATES.items():
             for k, direction in enumerate(DIRECTIONS):
                 values = {trial: number(result, quantities, k) for trial, result in trials.items()}
-                fitted = fit(values)
-                if fitted is not None:
-                    level, *exponents = fitted
-                    scale = 1 / _measured(direction)
-                    yield Law(
-                        step.name,
-                        step.words,
-                        state,
-                        direction,
-                        Known(*(scale * np.exp([level.value, level.low, level.high]))),
-                        *exponents,
-                        sum(value > 0 for value in values.values()),
-                        len(values),
-                    )
+                exponents = fit(values)
+                if exponents is not None:
+                    over = {
+                        term: level(
+                            {t: v for t, v in values.items() if _overlength(t.height_mm) == at},
+                            direction,
+                        )
+                        for term, at in levels().items()
+                    }
+                    terms = over | dict(zip(EXPONENTS, exponents))
+                    positive = sum(value > 0 for value in values.values())
+                    yield Law(step.name, step.words, state, direction, terms, positive, len(values))
+
+
+def level(values: Mapping[Trial, float], direction: str) -> Known:
+    """Geometric mean of stiffnesses (N/m) over the measured law.
+
+    Student's interval of the logarithms, so that what the thicknesses differ in counts as
+    scatter. What is not positive is left out.
+    """
+    logs = [
+        np.log(value / _measured(direction, _overlength(trial.height_mm), trial.thickness_um))
+        for trial, value in values.items()
+        if value > 0
+    ]
+    if len(logs) < 2:
+        return Known(float(np.exp(logs[0])) if logs else np.nan, np.nan, np.nan)
+    mean = sm.OLS(logs, np.ones(len(logs))).fit()
+    low, high = mean.conf_int(alpha=1 - CONFIDENCE)[0]
+    return Known(*map(float, np.exp([mean.params[0], low, high])))
 
 
 def number(result: dict, quantities: tuple[str, ...], k: int) -> float:
@@ -161,22 +183,27 @@ def number(result: dict, quantities: tuple[str, ...], k: int) -> float:
     return np.nan if values is None else float(np.asarray(values, float).ravel()[k])
 
 
-def fit(values: dict[Trial, float]) -> tuple[Known, Known, Known] | None:
-    """Logarithm of the stiffness (N/m) at `CENTRE`, and exponents of overlength and thickness.
+def fit(values: Mapping[Trial, float]) -> tuple[Known, Known] | None:
+    """Exponents of overlength and thickness.
 
-    Least squares of logarithms, a realisation each; Student's intervals. What is not positive
-    has no logarithm and is left out. None where the rest determines no law.
+    Least squares of logarithms, a realisation each; intervals by Student, and, where it is wider,
+    clustered by foil, as a power law may not hold for all of them. What is not positive has no
+    logarithm and is left out. None where the rest determines no law.
     """
     known = [(trial, value) for trial, value in values.items() if value > 0]
     if not known:
         return None
-    overlength = np.array([100 * (t.height_mm * 1e-3 / GAP_HEIGHT - 1) for t, _ in known])
-    thickness = np.array([t.thickness_um for t, _ in known], float)
-    x, y = np.log(overlength / CENTRE[0]), np.log(thickness / CENTRE[1])
-    design = np.stack([np.ones(x.size), x, y], axis=1)
+    x = np.log([_overlength(trial.height_mm) for trial, _ in known])
+    y = np.log([trial.thickness_um for trial, _ in known])
+    foils = np.unique(np.stack([x, y]), axis=1, return_inverse=True)[1].ravel()
+    design = np.stack([np.ones(x.size), x - x.mean(), y - y.mean()], axis=1)
     if x.size <= design.shape[1] or np.linalg.matrix_rank(design) < design.shape[1]:
         return None
-    target = np.log([value for _, value in known])
-    found = sm.OLS(target, design).fit()
-    intervals = found.conf_int(alpha=1 - CONFIDENCE)
-    return tuple(Known(*map(float, (v, *ends))) for v, ends in zip(found.params, intervals))
+    found = sm.OLS(np.log([value for _, value in known]), design).fit()
+    intervals = [found.conf_int(alpha=1 - CONFIDENCE)]
+    if foils.max() >= design.shape[1]:
+        robust = found.get_robustcov_results("cluster", groups=foils)
+        intervals.append(robust.conf_int(alpha=1 - CONFIDENCE))
+    ends = np.array(intervals)
+    low, high = ends[..., 0].min(axis=0), ends[..., 1].max(axis=0)
+    return tuple(Known(*map(float, each)) for each in zip(found.params[1:], low[1:], high[1:]))

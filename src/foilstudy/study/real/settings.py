@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -94,7 +95,21 @@ class Ladder(Section):
                         f"step {step.name!r} {word} {other!r}, which is none of the steps above it"
                     )
             known.add(step.name)
+        foils = {step.name: set(self._foils(step)) for step in self.steps}
+        for step in self.steps:
+            if step.beside and not foils[step.name] <= foils[step.beside]:
+                thickness, height = min(foils[step.name] - foils[step.beside])
+                raise ValueError(
+                    f"step {step.name!r} has foil of {thickness} um and {height} mm, which "
+                    f"{step.beside!r}, beside which it stands, has not; add it there"
+                )
         return self
+
+    def _foils(self, step: Step) -> Iterator[tuple[int, int]]:
+        return product(
+            step.thickness_um or self.thickness_um,
+            step.reference_height_mm or self.reference_height_mm,
+        )
 
     def sections_of(self, name: str) -> Sections:
         """Sections of a step, those that it takes over among them."""
@@ -106,10 +121,9 @@ class Ladder(Section):
         """Of every step, every foil."""
         for step in self.steps:
             content = content_digest(self.sections_of(step.name))
-            for thickness in step.thickness_um or self.thickness_um:
-                for height in step.reference_height_mm or self.reference_height_mm:
-                    for seed in range(step.seeds or self.seeds):
-                        yield Trial(step.name, content, thickness, height, seed)
+            for foil in self._foils(step):
+                for seed in range(step.seeds or self.seeds):
+                    yield Trial(step.name, content, *foil, seed)
 
 
 @cache

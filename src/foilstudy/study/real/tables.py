@@ -6,7 +6,8 @@ import numpy as np
 
 from foilstudy.base.tables import markdown_table
 from foilstudy.measure.stiffness.directional import DIRECTIONS
-from foilstudy.study.real.laws import TERMS, Found
+from foilstudy.study.real.laws import EXPONENTS, Found, levels
+from foilstudy.study.sweep.quantities import declared
 
 
 def trials(found: Found) -> list[dict]:
@@ -36,7 +37,7 @@ def _cells(name: str, value) -> dict[str, float | None]:
     values = np.asarray(np.nan if value is None else value, float).ravel()
     if values.size == 1:
         return {name: float(values[0])}
-    if values.size == len(DIRECTIONS):
+    if declared(name).dims == ("direction",):
         return {f"{name}_{d}": float(v) for d, v in zip(DIRECTIONS, values)}
     return {}
 
@@ -49,8 +50,8 @@ def laws(found: Found) -> list[dict]:
             "state": law.state,
             "direction": law.direction,
             **{
-                f"{term}{end}": getattr(getattr(law, term), kind)
-                for term in TERMS
+                f"{term}{end}": getattr(known, kind)
+                for term, known in law.terms.items()
                 for end, kind in (("", "value"), ("_low", "low"), ("_high", "high"))
             },
             "realisations": law.count,
@@ -62,12 +63,21 @@ def laws(found: Found) -> list[dict]:
 
 def page(found: Found) -> str:
     """The laws as a table for people."""
-    heads = ["model", "state", "direction", "level over measured", "exponent of overlength"]
+    heads = [
+        *("model", "state", "direction"),
+        *(f"over measured at {at:.3g} %" for at in levels().values()),
+        *(f"exponent of {name}" for name in EXPONENTS),
+        "realisations",
+    ]
     body = [
-        [law.words, law.state, law.direction, *(getattr(law, t).words for t in TERMS), _count(law)]
+        [
+            *(law.words, law.state, law.direction),
+            *(law.terms[term].words for term in (*levels(), *EXPONENTS)),
+            _count(law),
+        ]
         for law in found.laws
     ]
-    table = markdown_table([*heads, "exponent of thickness", "realisations"], body)
+    table = markdown_table(heads, body)
     return table.replace(" (nan to nan)", "") + "\n" + _bounds(found)
 
 

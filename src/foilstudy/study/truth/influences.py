@@ -34,8 +34,8 @@ class Influence:
     of : int
         All seeds.
     ratio : Ratio or None
-        Of that mean to the one beside it; none where a seed has no positive stiffness, as the mean
-        of the others says nothing then.
+        Of that mean to the one beside it; none where a seed of either has no positive stiffness, as
+        the mean of the others says nothing then.
     """
 
     step: str
@@ -73,9 +73,11 @@ def _influences(results: dict[Trial, dict]) -> Iterator[Influence]:
         beside = steps[name].beside
         for state in SHOWN:
             for k, direction in enumerate(DIRECTIONS):
-                mean = _mean(seeds, state, k)
-                other = None if beside is None else _mean(foils[beside, *foil], state, k)
-                known = other is not None and mean.n == len(seeds)
+                mean, whole = _mean(seeds, state, k)
+                ratio = None
+                if beside is not None:
+                    other, other_whole = _mean(foils[beside, *foil], state, k)
+                    ratio = Ratio.of(mean, other) if whole and other_whole else None
                 yield Influence(
                     name,
                     steps[name].words,
@@ -85,12 +87,14 @@ def _influences(results: dict[Trial, dict]) -> Iterator[Influence]:
                     direction,
                     mean,
                     len(seeds),
-                    Ratio.of(mean, other) if known else None,
+                    ratio,
                 )
 
 
-def _mean(seeds: list[dict], state: str, k: int) -> MeanInterval:
-    return MeanInterval.of([number(result, STATES[state], k) for result in seeds])
+def _mean(seeds: list[dict], state: str, k: int) -> tuple[MeanInterval, bool]:
+    """Of the seeds that are positive, and whether all are."""
+    mean = MeanInterval.of([number(result, STATES[state], k) for result in seeds])
+    return mean, mean.n == len(seeds)
 
 
 def table(found: Found) -> list[dict]:
@@ -141,7 +145,7 @@ def page(found: Found) -> str:
 def _cell(each: Influence) -> str:
     mean, ratio = each.mean, each.ratio
     if mean.n < each.of:
-        return f"not positive in {each.of - mean.n} of {each.of}"
+        return f"none or not positive in {each.of - mean.n} of {each.of}"
     words = f"{mean.mean:.4g} ({mean.low:.4g} to {mean.high:.4g})"
     if ratio is None:
         return words
