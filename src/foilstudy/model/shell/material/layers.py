@@ -66,13 +66,17 @@ class Layers:
             raise ValueError(f"a foil has {LAYERS_MAX} layers at most, not {heights.size}")
         _, self._heights, self.flow = self.made_of = frame, heights, flow
         self.frame = np.ascontiguousarray(frame.transpose(0, 2, 1))
-        self._norm = norm_of(self.frame, heights, flow)
         self.shape = frame.shape[0], frame.shape[2]
         self._size = frame.shape[0] * frame.shape[2]
         self._states: WeakSet[PlasticState] = WeakSet()
         self.values, self.sums = np.zeros((1, 4, heights.size)), np.zeros((1, _SUMS))
         self._free, self._taken = np.empty(0, dtype=np.int64), 0
         self._grow()
+
+    @cached_property
+    def _norm(self) -> tuple[float, ...]:
+        """Made when something may flow: what is only asked for its tangent needs none."""
+        return norm_of(self.frame, self._heights, self.flow)
 
     def untouched(self) -> PlasticState:
         """The state in which nothing has yielded."""

@@ -220,7 +220,7 @@ class PlasticTerm:
 
     def evolved(self, points: np.ndarray, state: PlasticState) -> PlasticState:
         """See `solve.problem.Term`: every layer back on its yield surface."""
-        rows = self._strains.rows
+        rows = None if self._section.variation is not None else self._strains.rows
         shape = np.ascontiguousarray(points) if rows else self._layer_strains(points)
         return state.foil.flowed(shape, rows, state, self._look)
 
