@@ -167,7 +167,7 @@ def counted(patch: Patch) -> dict[str, Operations]:
     points = np.broadcast_to(0.0, patch.shape)  # shapes decide, and no memory is needed
     found = operations(
         corner_kernel.internal_force, points, patch.elements_around, np.broadcast_to(0.0, data),
-        (patch.size_around, patch.size_along), FOIL.thickness**2 / 12, points,
+        None, (patch.size_around, patch.size_along), FOIL.thickness**2 / 12, points,
     )  # fmt: skip
     elements = patch.elements_around * patch.elements_along
     return {name.strip("_"): each.per(elements) for name, each in found.items()}

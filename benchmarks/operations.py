@@ -150,12 +150,22 @@ class _Body:
 
     def _statement(self, node: ast.stmt) -> None:
         match node:
-            case ast.Assign(targets=[target], value=value):
-                self._bind(target, value)
+            case ast.Assign(targets=targets, value=value):
+                for target in targets:
+                    self._bind(target, value)
             case ast.AugAssign(target=target, op=op, value=value):
                 self._bind(target, _binary(target, op, value))
             case ast.For(target=ast.Name(id=name), iter=iterated, body=body, orelse=[]):
                 self._loop(name, self._evaluated(iterated), body)
+            case ast.If(
+                test=ast.Compare(
+                    left=ast.Name(id=name), ops=[ast.IsNot()], comparators=[ast.Constant(None)]
+                ),
+                body=body,
+                orelse=[],
+            ):  # what may be left out is an array
+                if isinstance(self._known.get(name), np.ndarray):
+                    self._block(body)
             case ast.Expr(value=value) | ast.Return(value=value):
                 self._value(value)
             case _:

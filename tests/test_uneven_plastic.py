@@ -44,6 +44,18 @@ def shell_and_term(shape):
     return shell, term
 
 
+def test_an_even_factor_is_another_thickness():
+    shape = start(IDEAL)
+    section, states = shape.stressed.section, []
+    even = np.ones((shape.patch.elements_along, shape.patch.elements_around))
+    varied = replace(section, thickness=FOIL_THICKNESS / 1.2, variation=Variation(1.2 * even, even))
+    for each in (section, varied):
+        (term,) = each.law.terms(Shell(each, shape.element))
+        states.append(term.evolved(moved(shape), term.start()).layers)
+    assert states[0].any()
+    np.testing.assert_allclose(states[1], states[0], rtol=0, atol=1e-12 * states[0].max())
+
+
 @either_element
 def test_derivatives_at_a_fixed_state(element):
     shape = start(BOTH, element)

@@ -62,8 +62,8 @@ class CornerKernel(SampledKernel):
 
     def force(self, points: np.ndarray, out: np.ndarray) -> np.ndarray:
         return corner_kernel.internal_force(
-            points, self._section.patch.elements_around, self._data, self._spacings, self._bend,
-            out,
+            points, self._section.patch.elements_around, self._data, None, self._spacings,
+            self._bend, out,
         )  # fmt: skip
 
     def relief(self) -> CornerRelief:

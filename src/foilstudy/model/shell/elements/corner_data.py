@@ -7,7 +7,7 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from foilstudy.model.shell.elements.corner_kernel import LANES, STEPS, VALUES
+from foilstudy.model.shell.elements.corner_kernel import LACKED, LANES, STEPS, VALUES
 
 
 def pack(samples: np.ndarray, law: np.ndarray, periodic: bool, share: float) -> np.ndarray:
@@ -50,46 +50,35 @@ def pack(samples: np.ndarray, law: np.ndarray, periodic: bool, share: float) -> 
     return packed.ravel()
 
 
-def vertex_laws(law: np.ndarray, periodic: bool) -> np.ndarray:
-    """Of all vertices, shape (elements_along + 1, 6, lines): a quarter of each element there."""
-    return _on_both_sides(_line_laws(law, periodic))
-
-
-class VertexPlaces(NamedTuple):
-    """Where the values of a line of vertices, and of what begins there, are in what is packed.
+class ElementPlaces(NamedTuple):
+    """Where `corner_kernel.internal_force` looks for stresses that elements lack.
 
     Attributes
     ----------
-    owned : ndarray of int, shape (lines,)
-        Where its law is, and that of the elements that begin there.
-    all, starts : ndarray of int
-        All places of the first line, of the second one, and so on; where those of each begin.
-    row : int
-        From one row to the next.
+    first : ndarray of int, shape (elements_around,)
+        Where the first value of each element of the lowest row is.
+    row, value : int
+        From one row, and from one value, to the next.
+    size : int
+        Of the whole.
     """
 
-    owned: np.ndarray
-    all: np.ndarray
-    starts: np.ndarray
+    first: np.ndarray
     row: int
+    value: int
+    size: int
 
     @classmethod
     def of(cls, n_around: int, n_along: int, periodic: bool) -> Self:
         """Of a patch."""
-        row = VALUES * (STEPS + 1) * LANES
-        lines, places, owned = [], [], []
-        for chunk, (place, at, own) in enumerate(_chunks(n_around, periodic)):
-            inside = np.arange(place.size).reshape(place.shape)
-            lines.append(at.ravel())
-            places.append((chunk * (n_along + 1) * row + inside).ravel())
-            owned.append(own.ravel())
-        line, to = np.concatenate(lines), np.concatenate(places)
-        owns = np.concatenate(owned)
-        order = np.argsort(line, kind="stable")
-        starts = np.concatenate([[0], np.cumsum(np.bincount(line))])
-        own = np.empty(len(starts) - 1, dtype=np.int64)
-        own[line[owns]] = to[owns]
-        return cls(own, to[order], starts, row)
+        value = (STEPS + 2) * LANES
+        row, rows = LACKED * value, n_along + 2  # none below and none above
+        first, chunk = np.empty(n_around, dtype=np.int64), 0
+        for chunk, (place, _, _) in enumerate(_chunks(n_around, periodic)):
+            own = place[:-1]
+            inside, real = np.arange(own.size).reshape(own.shape), own < n_around
+            first[own[real]] = (chunk * rows + 1) * row + LANES + inside[real]
+        return cls(first, row, value, (chunk + 1) * rows * row)
 
 
 def _chunks(n_around: int, periodic: bool) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:

@@ -37,6 +37,10 @@ _G1, _G2, _G11, _G12, _G22 = 28, 31, 34, 37, 40  # of the elements, conjugate to
 _FP, _FQ, _OUT = 43, 46, 49  # force so far on rows P and Q; force on row P once it is complete
 _ENERGY = 52  # membrane, bending, stabilisation
 _ROWS = 55
+LACKED = 6
+"""Values kept per place of stresses that elements lack: 11, 22, 12 of membrane and of bending."""
+_DL = LANES * (STEPS + 2)  # their places, those of elements one further on, with zeros around
+_LACKS = LACKED * _DL
 _NO_AREA = 1e-200
 
 
@@ -188,8 +192,15 @@ def _edges_around(w, data, steps, i2):
         w[(_B + 2) * _W + k + 2 * LANES] = d * z
 
 
+@njit(cache=True, fastmath=True, error_model="numpy", forceinline=True)
+def _mean(lacked, k):
+    """Of the two elements below a vertex and the two above."""
+    low, up = lacked[k] + lacked[k + LANES], lacked[k + _LACKS] + lacked[k + _LACKS + LANES]
+    return 0.25 * (low + up)
+
+
 @njit(cache=True, fastmath=True, error_model="numpy")
-def _vertices(w, data, steps, i1, i2):
+def _vertices(w, data, steps, i1, i2, lacked):
     """Stresses of the vertices below and the vectors conjugate to a_1 and a_2."""
     h1 = 0.5 * i1
     h2 = 0.5 * i2
@@ -227,6 +238,10 @@ def _vertices(w, data, steps, i1, i2):
         w[_ENERGY * _W + k] += 0.5 * (n1 * e1 + n2 * e2 + n6 * e6)
         n1 -= 0.5 * (w[_QL * _W + k] + w[_QV * _W + k])
         n2 -= 0.5 * (w[_D * _W + k] + w[_D * _W + k + LANES])
+        if lacked is not None:  # a vertex lacks the mean of four elements
+            n1 -= _mean(lacked, k)
+            n2 -= _mean(lacked, k + _DL)
+            n6 -= _mean(lacked, k + 2 * _DL)
         w[_H1 * _W + k + LANES] = h1 * (n1 * x1 + n6 * x2)
         w[(_H1 + 1) * _W + k + LANES] = h1 * (n1 * y1 + n6 * y2)
         w[(_H1 + 2) * _W + k + LANES] = h1 * (n1 * z1 + n6 * z2)
@@ -236,7 +251,7 @@ def _vertices(w, data, steps, i1, i2):
 
 
 @njit(cache=True, fastmath=True, error_model="numpy")
-def _bend(w, data, steps, i1, i2, bend):
+def _bend(w, data, steps, i1, i2, bend, lacked):
     """Bending energy at the element middles and the vectors conjugate to their derivatives."""
     h1 = 0.5 * i1
     s1 = i1 * i1
@@ -343,6 +358,10 @@ def _bend(w, data, steps, i1, i2, bend):
         m2 = c12 * k1 + c22 * k2 + c26 * k6
         m6 = c16 * k1 + c26 * k2 + c66 * k6
         w[(_ENERGY + 1) * _W + k] += 0.5 * (m1 * k1 + m2 * k2 + m6 * k6)
+        if lacked is not None:
+            m1 -= lacked[_LACKS + 3 * _DL + k + LANES]
+            m2 -= lacked[_LACKS + 4 * _DL + k + LANES]
+            m6 -= lacked[_LACKS + 5 * _DL + k + LANES]
         u1 = -sigma * m1
         u2 = -sigma * m2
         u6 = -2.0 * sigma * m6
@@ -428,7 +447,7 @@ def _add_energies(w, places, energy):
 
 
 @njit(cache=True, fastmath=True, error_model="numpy")
-def internal_force(x, n_around, data, spacings, bend, force):
+def internal_force(x, n_around, data, lacking, spacings, bend, force):
     """Internal force, the derivative of the strain energy with respect to the control points.
 
     Parameters
@@ -439,6 +458,9 @@ def internal_force(x, n_around, data, spacings, bend, force):
         Elements around: as many as columns on a periodic patch, two less on an open one.
     data : ndarray
         From `corner_data.pack`.
+    lacking : ndarray or None
+        Stresses that elements lack, N m and N m2 as in `mean_strains.Inelastic`, laid out like the
+        data; for the energies they are there.
     spacings : tuple of float
         Element lengths around and along, m.
     bend : float
@@ -458,7 +480,8 @@ def internal_force(x, n_around, data, spacings, bend, force):
     energy = np.zeros(3)
     force[:] = 0.0
     block = VALUES * _DW
-    at = 0
+    at = to = 0
+    lacked = None
     for start in range(0, piece, STEPS):
         steps = min(STEPS, piece - start)
         w[:] = 0.0
@@ -474,8 +497,11 @@ def internal_force(x, n_around, data, spacings, bend, force):
             _fold(w, _R, x, j + 2, piece, start, steps)
             _edges_along(w, row, above, steps, i1, i2)
             _edges_around(w, row, steps, i2)
-            _vertices(w, row, steps, i1, i2)
-            _bend(w, row, steps, i1, i2, bend)
+            if lacking is not None:
+                lacked = lacking[to : to + 2 * _LACKS]
+                to += _LACKS
+            _vertices(w, row, steps, i1, i2, lacked)
+            _bend(w, row, steps, i1, i2, bend, lacked)
             _collect(w, steps)
             _unfold(w, _OUT, force, j, piece, start, steps)
             _shift(w, steps)
@@ -485,7 +511,10 @@ def internal_force(x, n_around, data, spacings, bend, force):
         w[_HM * _W : (_HM + 3) * _W] = 0.0
         w[_G1 * _W : (_G22 + 3) * _W] = 0.0
         _edges_around(w, row, steps, i2)
-        _vertices(w, row, steps, i1, i2)
+        if lacking is not None:
+            lacked = lacking[to : to + 2 * _LACKS]
+            to += 2 * _LACKS
+        _vertices(w, row, steps, i1, i2, lacked)
         _collect(w, steps)
         _unfold(w, _OUT, force, n_along, piece, start, steps)
         _unfold(w, _FP, force, n_along + 1, piece, start, steps)

@@ -9,6 +9,7 @@ sample: what the samples differ by stays elastic.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -46,6 +47,21 @@ class Inelastic:
         return cls(strains, stresses)
 
 
+class Rows(NamedTuple):
+    """What `mean_kernel` takes the strains of one row of elements after the other from.
+
+    Attributes
+    ----------
+    rest : ndarray
+        See `mean_kernel.packed`.
+    spacings : tuple of float
+        Element lengths around and along, m.
+    """
+
+    rest: np.ndarray
+    spacings: tuple[float, float]
+
+
 class SampledMeanStrains:
     """Those of any strain sampling, from two evaluations of the general kernel.
 
@@ -53,7 +69,14 @@ class SampledMeanStrains:
     ----------
     section : Section
     sampling : StrainSampling
+
+    Attributes
+    ----------
+    rows : Rows or None
+        None: it knows no other way than all strains at once.
     """
+
+    rows: Rows | None = None
 
     def __init__(self, section: Section, sampling: StrainSampling):
         patch = section.patch
@@ -127,18 +150,12 @@ class CornerMeanStrains(SampledMeanStrains):
         patch = section.patch
         members = self._component.size
         rest = [self._samples[..., :members] @ self._mean.T, self._samples[..., members:]]
-        self._rest = np.concatenate(rest, axis=2).transpose(0, 2, 1).copy()
-        self._spacings = (patch.size_around, patch.size_along)
+        rest = np.concatenate(rest, axis=2).transpose(0, 2, 1)
+        self.rows = Rows(mean_kernel.packed(rest), (patch.size_around, patch.size_along))
 
     def strains(self, points: np.ndarray) -> np.ndarray:
         """See `SampledMeanStrains`."""
         out = np.empty(self._section.stiffness.shape)
-        around = self._section.patch.elements_around
-        mean_kernel.strains(self._unrolled(points), around, self._spacings, self._rest, out)
+        rest, spacings = self.rows
+        mean_kernel.strains(np.ascontiguousarray(points), spacings, rest, out)
         return out
-
-    def _unrolled(self, points: np.ndarray) -> np.ndarray:
-        """Control points with the first columns again behind the last, on a closed patch."""
-        if not self._section.patch.periodic:
-            return np.ascontiguousarray(points)
-        return np.concatenate([points, points[..., : mean_kernel.PAD]], axis=2)

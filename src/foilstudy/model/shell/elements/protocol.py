@@ -6,7 +6,7 @@ from typing import Protocol
 
 import numpy as np
 
-from foilstudy.model.shell.elements.mean_strains import Inelastic
+from foilstudy.model.shell.elements.mean_strains import Inelastic, Rows
 from foilstudy.model.shell.section import Section
 
 
@@ -30,7 +30,15 @@ class ElementKernel(Protocol):
 
 
 class MeanStrains(Protocol):
-    """Six strains of every element of a section, for a law with a memory; see `mean_strains`."""
+    """Six strains of every element of a section, for a law with a memory; see `mean_strains`.
+
+    Attributes
+    ----------
+    rows : Rows or None
+        Where they can be had row by row.
+    """
+
+    rows: Rows | None
 
     def strains(self, points: np.ndarray) -> np.ndarray:
         """Membrane and bending strains, shape (elements_along, 6, elements_around), 1 and 1/m."""
@@ -53,15 +61,11 @@ class Relief(Protocol):
         ...
 
     def force(self, points: np.ndarray, out: np.ndarray) -> np.ndarray:
-        """As in `ElementKernel`, of what is elastic of the strains."""
+        """As in `ElementKernel`: the force of what is elastic, the energies of all strains."""
         ...
 
-    def work(self, strains: np.ndarray) -> tuple[float, float]:
-        """Of the stresses taken off, on membrane and on bending strains, J."""
-        ...
-
-    def spare(self) -> tuple[float, float]:
-        """Membrane and bending energy that the inelastic strains alone would have, J."""
+    def work(self, strains: np.ndarray) -> float:
+        """Of the stresses taken off on the strains of the elements, J."""
         ...
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -50,6 +49,7 @@ class MeanStrainsTogether:
 
     parts: tuple[Section, ...]
     strained: tuple[MeanStrains, ...]
+    rows = None
 
     def strains(self, points: np.ndarray) -> np.ndarray:
         """See `MeanStrains`."""
@@ -93,18 +93,9 @@ class ReliefTogether:
         """See `Relief`."""
         return Together(self.reliefs).force(points, out)
 
-    def work(self, strains: np.ndarray) -> tuple[float, float]:
+    def work(self, strains: np.ndarray) -> float:
         """See `Relief`."""
-        return _sums(relief.work(strains) for relief in self.reliefs)
-
-    def spare(self) -> tuple[float, float]:
-        """See `Relief`."""
-        return _sums(relief.spare() for relief in self.reliefs)
-
-
-def _sums(pairs: Iterable[tuple[float, float]]) -> tuple[float, float]:
-    membrane, bending = np.sum(list(pairs), axis=0)
-    return float(membrane), float(bending)
+        return sum(relief.work(strains) for relief in self.reliefs)
 
 
 def kernel_of(element: Element, section: Section) -> ElementKernel:

@@ -7,14 +7,26 @@ before, and older ones stay what they were. Slots that no state refers to any mo
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Any, Self
 from weakref import WeakSet, ref
 
 import numpy as np
 
-from foilstudy.model.shell.material.return_map import LAYERS_MAX, Flow, flow_on, sum_up
+from foilstudy.model.shell.elements.mean_kernel import STRIDE, WIDTH
+from foilstudy.model.shell.elements.mean_strains import Rows
+from foilstudy.model.shell.material.return_map import (
+    LAYERS_MAX,
+    LOOKED,
+    ROOM,
+    Flow,
+    energies,
+    flow_on,
+    norm_of,
+    sum_up,
+)
 
-_SUMS = 9
+_SUMS = 6
 _COLLECTED, _ROOM = 1, 2
 """Slots taken, for each element, before unused ones are sought, and free ones that there are then
 at least. The fewer are taken, the more of them stay in the fast caches."""
@@ -44,22 +56,27 @@ class Layers:
         Plastic strains 11, 22, 2 12 in Cartesian axes, the first along the first coordinate of the
         element, and the accumulated one, which never falls. Slot 0 is that of foil that has not
         yielded.
-    sums : ndarray, shape (slots, 9)
+    sums : ndarray, shape (slots, 6)
         Of each slot the mean of its plastic strains and their curvature, in the coordinates of the
-        element; and the elastic energy that they alone would have, what they have dissipated and
-        what kinematic hardening keeps, J.
+        element.
     """
 
     def __init__(self, frame: np.ndarray, heights: np.ndarray, flow: Flow):
         if heights.size > LAYERS_MAX:
             raise ValueError(f"a foil has {LAYERS_MAX} layers at most, not {heights.size}")
-        self._frame, self._heights, self._flow = self.made_of = frame, heights, flow
+        _, self._heights, self.flow = self.made_of = frame, heights, flow
+        self.frame = np.ascontiguousarray(frame.transpose(0, 2, 1))
         self.shape = frame.shape[0], frame.shape[2]
         self._size = frame.shape[0] * frame.shape[2]
         self._states: WeakSet[PlasticState] = WeakSet()
         self.values, self.sums = np.zeros((1, 4, heights.size)), np.zeros((1, _SUMS))
         self._free, self._taken = np.empty(0, dtype=np.int64), 0
         self._grow()
+
+    @cached_property
+    def _norm(self) -> tuple[float, ...]:
+        """Made when something may flow: what is only asked for its tangent needs none."""
+        return norm_of(self.frame, self._heights, self.flow)
 
     def untouched(self) -> PlasticState:
         """The state in which nothing has yielded."""
@@ -74,25 +91,39 @@ class Layers:
         self._taken = len(taken)
         slots[yielded] = taken
         self.values[taken] = values.transpose(0, 3, 2, 1)[yielded]
-        sum_up(self.values, slots, self._heights, self._frame, self._flow, self.sums)
+        sum_up(self.values, slots, self._heights, self.frame, self.sums)
         return self._noted(slots)
 
     def flowed(
-        self, strains: np.ndarray, before: PlasticState, seen: np.ndarray, room: np.ndarray
+        self, shape: np.ndarray, rows: Rows | None, before: PlasticState, look: Look
     ) -> PlasticState:
-        """The state that strains lead to; see `return_map.flow_on`."""
+        """The state that a shape leads to; see `return_map.flow_on`.
+
+        Parameters
+        ----------
+        shape : ndarray
+            Control points, or mean strains where there are no `rows`.
+        rows : Rows or None
+        before : PlasticState
+        look : Look
+            Taken note of.
+        """
         if self._taken > _COLLECTED * self._size:
             self._collect()
+        look.see(before)
         slots, changed = before.slots.copy(), np.empty(self._size, dtype=np.int64)
+        rest, spacings = rows or (None, None)
         used = flow_on(
-            strains, self._frame, self._heights, self._flow, self.values, self.sums, seen, room,
-            slots, self._free, changed,
+            shape, rest, spacings, self.frame, self._heights, self.flow, self._norm,
+            self.values, self.sums, look.values, slots, self._free, changed,
         )  # fmt: skip
+        look.last = before
         if not used:
             return before
         self._free, self._taken = self._free[used:], self._taken + used
         state = self._noted(slots)
         state.since = ref(before), changed[:used]
+        look.last = state
         return state
 
     def _noted(self, slots: np.ndarray) -> PlasticState:
@@ -115,6 +146,31 @@ class Layers:
         self.values = np.concatenate([self.values, np.empty((more, *self.values.shape[1:]))])
         self.sums = np.concatenate([self.sums, np.empty((more, _SUMS))])
         self._free = np.concatenate([self._free, np.arange(kept, kept + more)])
+
+
+class Look:
+    """What was seen of the elements when their layers were looked at last.
+
+    Attributes
+    ----------
+    values : ndarray
+        See `return_map.flow_on`.
+    last : PlasticState or None
+        The state in which they were left.
+    """
+
+    def __init__(self, shape: tuple[int, int]):
+        along, around = shape
+        self._around = around
+        self.values = np.zeros((-(-around // WIDTH), along, LOOKED, STRIDE))
+        self.last: PlasticState | None = None
+
+    def see(self, state: PlasticState) -> None:
+        """Have what is not as it was left looked at again."""
+        elements = differing(state, self.last)
+        if len(elements):
+            row, column = np.divmod(elements, self._around)
+            self.values[column // WIDTH, row, ROOM, column % WIDTH] = -np.inf
 
 
 class PlasticState:
@@ -174,20 +230,23 @@ class PlasticState:
     @property
     def energy(self) -> float:
         """Elastic energy that the plastic strains alone would have, J."""
-        return self._total(6)
+        return float(self._energies[0])
 
     @property
     def dissipated(self) -> float:
         """Work that plastic flow has used up, J: all but what kinematic hardening keeps."""
-        return self._total(7)
+        return float(self._energies[1])
 
     @property
     def kept(self) -> float:
         """What kinematic hardening keeps, J."""
-        return self._total(8)
+        return float(self._energies[2])
 
-    def _total(self, which: int) -> float:
-        return float(self.foil.sums[self.slots.ravel(), which].sum())
+    @cached_property
+    def _energies(self) -> np.ndarray:
+        out, foil = np.empty(3), self.foil
+        energies(foil.values, self.slots, foil.frame, foil.flow, out)
+        return out
 
 
 def _alone(frame: np.ndarray, heights: np.ndarray, flow: Flow, layers: np.ndarray) -> PlasticState:

@@ -20,9 +20,10 @@ import numpy as np
 import scipy.sparse as sparse
 
 from foilstudy.model.shell.elements.mean_strains import Inelastic
+from foilstudy.model.shell.elements.protocol import MeanStrains, Relief
 from foilstudy.model.shell.elements.together import mean_strains_of, relief_of
 from foilstudy.model.shell.material.elastic import Elastic
-from foilstudy.model.shell.material.layers import Layers, PlasticState, differing
+from foilstudy.model.shell.material.layers import Layers, Look, PlasticState, differing
 from foilstudy.model.shell.material.return_map import Flow, cartesian_frame
 from foilstudy.model.shell.tangent import block_matrix
 
@@ -103,13 +104,18 @@ class PlasticTerm:
 
     def __init__(self, shell: Any, law: Plastic):
         self.law, self.shell, self._section = law, shell, shell.section
-        self._strains = mean_strains_of(shell.element, shell.section)
-        self._relief = relief_of(shell.element, shell.section)
         self.heights = layer_heights(law.layers, self._section.thickness)
-        # the last state, and strains and room before yield when its elements were looked at; the
-        # state that the relief is of
-        self._looked: tuple[PlasticState, np.ndarray, np.ndarray] | None = None
-        self._relieved: PlasticState | None = None
+        self._look = Look(self._section.forms[:, 0].shape)
+        self._relieved: PlasticState | None = None  # what the relief is of
+
+    # made when they are needed: who wants a tangent or what a state says asks for no force
+    @cached_property
+    def _strains(self) -> MeanStrains:
+        return mean_strains_of(self.shell.element, self._section)
+
+    @cached_property
+    def _relief(self) -> Relief | None:
+        return relief_of(self.shell.element, self._section)
 
     @cached_property
     def _frame(self) -> np.ndarray:
@@ -156,7 +162,7 @@ class PlasticTerm:
         if self._relief is None:
             self.force_with_shell(points, out, state)
         else:
-            self._elastic_force(points, out, state)
+            self._relieved_force(points, out, state)
 
     def force_with_shell(
         self, points: np.ndarray, out: np.ndarray, state: PlasticState
@@ -167,22 +173,14 @@ class PlasticTerm:
             own = self.force(points, share, state)
             out += share
             return np.concatenate([energies, own])
-        elastic = self._elastic_force(points, out, state)
-        membrane, bending = self._relief.work(self._strains.strains(points))
-        spare = self._relief.spare()
-        return np.array(
-            [
-                elastic[0] + (membrane - spare[0]),
-                elastic[1] + (bending - spare[1]),
-                elastic[2],
-                state.energy - (membrane + bending),
-            ]
-        )
+        energies = self._relieved_force(points, out, state)
+        work = self._relief.work(self._strains.strains(points))
+        return np.append(energies, state.energy - work)
 
-    def _elastic_force(
+    def _relieved_force(
         self, points: np.ndarray, out: np.ndarray, state: PlasticState
     ) -> np.ndarray:
-        """Write the force of what is elastic of the strains; its energies."""
+        """Write the force of both; the energies of the shell."""
         stale = differing(state, self._relieved)
         if len(stale):
             self._relief.update(stale, self._strains_of(state, stale))
@@ -222,14 +220,9 @@ class PlasticTerm:
 
     def evolved(self, points: np.ndarray, state: PlasticState) -> PlasticState:
         """See `solve.problem.Term`: every layer back on its yield surface."""
-        strains = self._layer_strains(points)
-        if self._looked is None:
-            self._looked = None, np.zeros_like(strains), np.empty(state.slots.shape)
-        last, seen, room = self._looked
-        room.ravel()[differing(state, last)] = -np.inf  # to be looked at
-        after = state.foil.flowed(strains, state, seen, room)
-        self._looked = after, seen, room
-        return after
+        rows = None if self._section.variation is not None else self._strains.rows
+        shape = np.ascontiguousarray(points) if rows else self._layer_strains(points)
+        return state.foil.flowed(shape, rows, state, self._look)
 
     def stresses(self, points: np.ndarray, state: PlasticState) -> np.ndarray:
         """Cartesian stresses 11, 22, 12 of the layers, Pa.

@@ -13,6 +13,19 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from foilstudy.model.shell.elements.mean_kernel import (
+    OVER,
+    ROWS,
+    STRAINS,
+    STRIDE,
+    WIDTH,
+    advance,
+    begin,
+)
+
+ROOM = 6
+LOOKED = 7
+"""Values kept of an element that was looked at: its strains, and the room that it had."""
 _ROUNDING = 1e-12
 """Relative; what has returned to the yield surface does not flow for less."""
 _LAST = 1e-6
@@ -69,14 +82,17 @@ def _newton(u, v, w, limit, g, flow):
     modulus, nu, _, isotropic, kinematic = flow
     back = kinematic * (2.0 / 3.0)
     a, b = modulus / (3.0 * (1.0 - nu)) + back, modulus / (1.0 + nu) + back
-    target = np.sqrt(3.0) / limit
+    target = np.sqrt(3.0)
     slope = isotropic * (2.0 / 3.0) * target
-    x, y = 1.0 / (1.0 + a * g), 1.0 / (1.0 + b * g)
+    first, second = 1.0 + a * g, 1.0 + b * g
+    both = 1.0 / (first * second)
+    x, y = second * both, first * both
     mean, deviation = u * u / 12.0 * x * x, (0.25 * v * v + w * w) * y * y
     total = mean + deviation
-    root = 1.0 / np.sqrt(total)
-    rise = root * (mean * a * x + deviation * b * y) / total + slope
-    return (target - slope * g - root) / rise
+    cube = total * np.sqrt(total)
+    # of 1 / sqrt(total) - (target - slope g) / limit, both times limit and cube: divisions are dear
+    rise = limit * (mean * a * x + deviation * b * y) + slope * cube
+    return ((target - slope * g) * cube - limit * total) / rise
 
 
 @njit(cache=True, error_model="numpy", forceinline=True)
@@ -115,64 +131,67 @@ def increment(strain, plastic, done, flow):
 
 
 @njit(cache=True, error_model="numpy", forceinline=True)
-def _turned(frame, j, k, e1, e2, e6):
+def _turned(frame, e1, e2, e6):
     """Three strains of an element in Cartesian axes."""
     return (
-        frame[j, 0, k] * e1,
-        frame[j, 1, k] * e1 + frame[j, 2, k] * e2 + frame[j, 3, k] * e6,
-        frame[j, 4, k] * e1 + frame[j, 5, k] * e6,
+        frame[0] * e1,
+        frame[1] * e1 + frame[2] * e2 + frame[3] * e6,
+        frame[4] * e1 + frame[5] * e6,
     )
 
 
 @njit(cache=True, error_model="numpy", forceinline=True)
-def _turned_back(frame, j, k, e1, e2, e6):
-    c1 = e1 / frame[j, 0, k]
-    c6 = (e6 - frame[j, 4, k] * c1) / frame[j, 5, k]
-    return c1, (e2 - frame[j, 1, k] * c1 - frame[j, 3, k] * c6) / frame[j, 2, k], c6
+def _turned_back(frame, e1, e2, e6):
+    c1 = e1 / frame[0]
+    c6 = (e6 - frame[4] * c1) / frame[5]
+    return c1, (e2 - frame[1] * c1 - frame[3] * c6) / frame[2], c6
 
 
 @njit(cache=True, error_model="numpy")
-def _moved(strain, seen, frame, room, j, farthest, flow, over):
+def _moved(w, look, norm, count):
     """By how much elements of a row have come nearer to yield than they have room for, squared.
 
     The von Mises stress of what strains have changed by is convex over the thickness, so that no
     layer has come nearer by more than the larger one of the outermost two.
     """
-    sums, shear = flow[0] / (1.0 - flow[1]), flow[0] / (1.0 + flow[1])
-    for k in range(over.size):
-        m1, m2, m6 = _turned(
-            frame, j, k,
-            strain[j, 0, k] - seen[j, 0, k],
-            strain[j, 1, k] - seen[j, 1, k],
-            strain[j, 2, k] - seen[j, 2, k],
-        )  # fmt: skip
-        b1, b2, b6 = _turned(
-            frame, j, k,
-            strain[j, 3, k] - seen[j, 3, k],
-            strain[j, 4, k] - seen[j, 4, k],
-            strain[j, 5, k] - seen[j, 5, k],
-        )  # fmt: skip
-        mu, mv, mw = sums * (m1 + m2), shear * (m1 - m2), 0.5 * shear * m6
-        bu, bv = farthest * sums * (b1 + b2), farthest * shear * (b1 - b2)
-        bw = farthest * 0.5 * shear * b6
+    first, second, farthest = norm[0], norm[1], norm[5]
+    third, fourth, fifth = norm[2], norm[3], norm[4]
+    for k in range(count):
+        m1 = w[STRAINS * STRIDE + k] - look[k]
+        m2 = w[(STRAINS + 1) * STRIDE + k] - look[STRIDE + k]
+        m6 = w[(STRAINS + 2) * STRIDE + k] - look[2 * STRIDE + k]
+        b1 = farthest * (w[(STRAINS + 3) * STRIDE + k] - look[3 * STRIDE + k])
+        b2 = farthest * (w[(STRAINS + 4) * STRIDE + k] - look[4 * STRIDE + k])
+        b6 = farthest * (w[(STRAINS + 5) * STRIDE + k] - look[5 * STRIDE + k])
+        mu, mv, mw = first * m1 + second * m2, third * m1 - fourth * m2, fifth * m6
+        bu, bv, bw = first * b1 + second * b2, third * b1 - fourth * b2, fifth * b6
         even = 0.25 * (mu * mu + bu * bu) + 0.75 * (mv * mv + bv * bv) + 3.0 * (mw * mw + bw * bw)
         odd = 0.5 * mu * bu + 1.5 * mv * bv + 6.0 * mw * bw
-        over[k] = even + abs(odd) - room[j, k] * abs(room[j, k])
+        w[OVER * STRIDE + k] = even + abs(odd) - look[ROOM * STRIDE + k]
+
+
+@njit(cache=True, error_model="numpy")
+def _copied(w, strain, j, first, count):
+    for part in range(6):
+        for k in range(count):
+            w[(STRAINS + part) * STRIDE + k] = strain[j, part, first + k]
 
 
 LAYERS_MAX = _W = 512
 """Of an element, and as many flow at a time."""
+_USUAL = 8
+"""Layers that loops are compiled for apart, as they are too few for one of unknown length."""
 # Rows of work arrays, of constant distance, by which the compiler sees that they do not overlap: of
 # the layers of one element, and of those that flow.
 _EXCESS, _LEFT = 3, 4
 _LIMIT, _MULTIPLIER, _STEP, _FLOWING = 3, 4, 5, 6
 
 
-@njit(cache=True, error_model="numpy")
-def _excesses(layers, mean, bent, heights, flow, trial):
-    """Trial stress, excess beyond yield and room before it of the layers of one element."""
+@njit(cache=True, error_model="numpy", forceinline=True)
+def _excesses(layers, mean, bent, heights, number, flow, trial):
+    """Trial stress, its von Mises stress squared and the excess of that over yield, of layers."""
     p1, p2, p6, done = layers[0], layers[1], layers[2], layers[3]
-    for n in range(heights.size):
+    for n in range(number):
         z = heights[n]
         u, v, w = _trial(
             mean[0] + z * bent[0], mean[1] + z * bent[1], mean[2] + z * bent[2],
@@ -180,8 +199,18 @@ def _excesses(layers, mean, bent, heights, flow, trial):
         )  # fmt: skip
         limit, square = flow[2] + flow[3] * done[n], _square(u, v, w)
         trial[n], trial[_W + n], trial[2 * _W + n] = u, v, w
-        trial[_EXCESS * _W + n] = _excess(square, limit)
-        trial[_LEFT * _W + n] = limit - np.sqrt(square)
+        trial[_EXCESS * _W + n], trial[_LEFT * _W + n] = _excess(square, limit), square
+
+
+@njit(cache=True, error_model="numpy")
+def _room(layers, number, flow, trial):
+    """By how much the von Mises stress may rise in any layer of an element, signed, squared."""
+    least = np.inf
+    for n in range(number):
+        left = flow[2] + flow[3] * layers[3, n] - np.sqrt(trial[_LEFT * _W + n])
+        if not left >= least:
+            least = left
+    return least * abs(least)
 
 
 @njit(cache=True, error_model="numpy")
@@ -212,38 +241,62 @@ def _flow(layers, f, where, count, flow):
 
 
 @njit(cache=True, error_model="numpy")
-def _sum_all(layers, where, count, heights, frame, flow, sums):
+def _sum_all(layers, where, count, heights, frame, sums):
     for n in range(count):
         j, k, slot = where[2, n], where[3, n], where[4, n]
-        _sum_up(layers[slot], heights, frame, j, k, flow, sums[slot])
+        if heights.size == _USUAL:
+            _sum_up(layers[slot], heights, _USUAL, frame[j, k], sums[slot])
+        else:
+            _sum_up(layers[slot], heights, heights.size, frame[j, k], sums[slot])
 
 
-@njit(cache=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz"})
-def _sum_up(layers, heights, frame, j, k, flow, sums):
-    """What the layers of an element add up to, see `layers.Layers`."""
-    p1, p2, p6, done = layers[0], layers[1], layers[2], layers[3]
-    square, kinematic = 0.0, flow[4]
-    a = b = c = d = e = f = elastic = used = kept = 0.0
-    first, second = 0.25 * flow[0] / (1.0 - flow[1]), 0.25 * flow[0] / (1.0 + flow[1])
-    for n in range(heights.size):
+@njit(cache=True, error_model="numpy", forceinline=True, fastmath={"reassoc", "contract", "nsz"})
+def _sum_up(layers, heights, number, frame, sums):
+    """Mean and curvature of the plastic strains of an element, see `layers.Layers`."""
+    p1, p2, p6 = layers[0], layers[1], layers[2]
+    square = a = b = c = d = e = f = 0.0
+    for n in range(number):
         z = heights[n]
         square += z * z
         a, b, c = a + p1[n], b + p2[n], c + p6[n]
         d, e, f = d + z * p1[n], e + z * p2[n], f + z * p6[n]
+    one = 1.0 / number
+    sums[0], sums[1], sums[2] = _turned_back(frame, one * a, one * b, one * c)
+    sums[3], sums[4], sums[5] = _turned_back(frame, d / square, e / square, f / square)
+
+
+@njit(cache=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz"})
+def _energies(layers, flow):
+    """Of the layers of an element, J/m3: elastic, of the plastic strains alone; used up; kept."""
+    p1, p2, p6, done = layers[0], layers[1], layers[2], layers[3]
+    first, second = 0.25 * flow[0] / (1.0 - flow[1]), 0.25 * flow[0] / (1.0 + flow[1])
+    elastic = used = kept = 0.0
+    for n in range(done.size):
         total, apart = p1[n] + p2[n], p1[n] - p2[n]
         elastic += first * total * total + second * (apart * apart + p6[n] * p6[n])
         used += done[n] * (flow[2] + 0.5 * flow[3] * done[n])
         kept += 0.75 * total * total + 0.25 * (apart * apart + p6[n] * p6[n])
-    one = 1.0 / heights.size
-    sums[0], sums[1], sums[2] = _turned_back(frame, j, k, one * a, one * b, one * c)
-    sums[3], sums[4], sums[5] = _turned_back(frame, j, k, d / square, e / square, f / square)
-    share = one * frame[j, 6, k]
-    sums[6], sums[7] = share * elastic, share * used
-    sums[8] = share * (2.0 / 3.0) * kinematic * kept
+    one = 1.0 / done.size
+    return one * elastic, one * used, one * (2.0 / 3.0) * flow[4] * kept
 
 
 @njit(cache=True, error_model="numpy")
-def flow_on(strain, frame, heights, flow, layers, sums, seen, room, slots, free, changed):
+def energies(layers, slots, frame, flow, out):
+    """Write what the plastic strains of all elements alone would have, used up and kept, J."""
+    out[:] = 0.0
+    for j in range(slots.shape[0]):
+        for k in range(slots.shape[1]):
+            if slots[j, k] > 0:
+                elastic, used, kept = _energies(layers[slots[j, k]], flow)
+                volume = frame[j, k, 6]
+                out[0] += volume * elastic
+                out[1] += volume * used
+                out[2] += volume * kept
+
+
+@njit(cache=True, error_model="numpy")
+def flow_on(strain, rest, spacings, frame, heights, flow, norm, layers, sums, look, slots, free,
+            changed):  # fmt: skip
     """Bring the layers of all elements up to date once mean strains have been reached.
 
     Layers are looked at only where strains have changed, since they were looked at last, by as much
@@ -253,19 +306,23 @@ def flow_on(strain, frame, heights, flow, layers, sums, seen, room, slots, free,
     Parameters
     ----------
     strain : ndarray, shape (elements_along, 6, elements_around)
-        e_11, e_22, 2 e_12 and k_11, k_22, 2 k_12 in the coordinates of the elements.
-    frame : ndarray, shape (elements_along, 7, elements_around)
+        e_11, e_22, 2 e_12 and k_11, k_22, 2 k_12 in the coordinates of the elements; or control
+        points, m, of which `mean_kernel` makes them.
+    rest, spacings
+        See `mean_kernel.strains`; None with strains.
+    frame : ndarray, shape (elements_along, elements_around, 7)
         See `cartesian_frame`; the last one is the volume of an element, m3.
     heights : ndarray, shape (layers,)
         Above the middle surface, m; all count alike.
     flow : Flow
+    norm : tuple of float
+        See `norm_of`.
     layers, sums : ndarray
         See `layers.Layers`; what flows is written into free slots.
-    seen : ndarray, shape of strain
-        Strains that were looked at last.
-    room : ndarray, shape (elements_along, elements_around)
-        How much the von Mises stress could rise then in any layer, Pa; negative where the element
-        has to be looked at.
+    look : ndarray, shape (pieces, elements_along, `LOOKED`, `mean_kernel.STRIDE`)
+        Of the elements, `mean_kernel.WIDTH` a piece, the strains that were looked at last, and the
+        square of how much the von Mises stress could rise then in any layer, Pa2; negative where
+        an element has to be looked at.
     slots : ndarray of int, shape (elements_along, elements_around)
         Of the elements; overwritten where one flows.
     free : ndarray of int
@@ -279,57 +336,112 @@ def flow_on(strain, frame, heights, flow, layers, sums, seen, room, slots, free,
         How many free slots were used.
     """
     number, used, waiting, elements = heights.size, 0, 0, 0
-    farthest = np.abs(heights).max()
-    trial, over = np.empty(5 * _W), np.empty(strain.shape[2])
+    along, around = slots.shape
+    w, trial = np.empty(ROWS * STRIDE), np.empty(5 * _W)
+    picked = np.empty(WIDTH + 1, dtype=np.int64)
     flowing, where = np.empty(_FLOWING * _W), np.empty((5, _W), dtype=np.int64)
-    for j in range(strain.shape[0]):
-        _moved(strain, seen, frame, room, j, farthest, flow, over)
-        for k in range(over.size):
-            if over[k] < 0.0:  # what is not a number is looked at
-                continue
-            for part in range(6):
-                seen[j, part, k] = strain[j, part, k]
-            mean = _turned(frame, j, k, strain[j, 0, k], strain[j, 1, k], strain[j, 2, k])
-            bent = _turned(frame, j, k, strain[j, 3, k], strain[j, 4, k], strain[j, 5, k])
-            slot = slots[j, k]
-            _excesses(layers[slot], mean, bent, heights, flow, trial)
-            least, first = np.inf, waiting
-            for n in range(number):
-                if trial[_EXCESS * _W + n] > 0.0:
-                    for part in range(3):
-                        flowing[part * _W + waiting] = trial[part * _W + n]
-                    flowing[_LIMIT * _W + waiting] = flow[2] + flow[3] * layers[slot, 3, n]
-                    where[0, waiting], where[1, waiting] = free[used], n
-                    waiting += 1
-                if not trial[_LEFT * _W + n] >= least:
-                    least = trial[_LEFT * _W + n]
-            room[j, k] = least
-            if waiting == first:
-                continue
-            room[j, k] = 0.0
-            layers[free[used]] = layers[slot]
-            slots[j, k] = free[used]
-            changed[used] = j * over.size + k
-            where[2, elements], where[3, elements], where[4, elements] = j, k, free[used]
-            used += 1
-            elements += 1
-            if waiting + number > _W:
-                _flow(layers, flowing, where, waiting, flow)
-                _sum_all(layers, where, elements, heights, frame, flow, sums)
-                waiting = elements = 0
+    for piece in range(look.shape[0]):
+        first = piece * WIDTH
+        count = min(WIDTH, around - first)
+        if rest is not None:
+            begin(w, strain, first, count, spacings)
+        for j in range(along):
+            if rest is not None:
+                advance(w, strain, j, first, count, spacings, rest[piece, j].ravel())
+            else:
+                _copied(w, strain, j, first, count)
+            last = look[piece, j].ravel()
+            _moved(w, last, norm, count)
+            picks = 0
+            for k in range(count):
+                picked[picks] = k
+                picks += not w[OVER * STRIDE + k] < 0.0  # what is not a number is looked at
+            for pick in range(picks):
+                k = picked[pick]
+                column = first + k
+                for part in range(6):
+                    last[part * STRIDE + k] = w[(STRAINS + part) * STRIDE + k]
+                own = frame[j, column]
+                mean = _turned(own, last[k], last[STRIDE + k], last[2 * STRIDE + k])
+                bent = _turned(
+                    own, last[3 * STRIDE + k], last[4 * STRIDE + k], last[5 * STRIDE + k]
+                )
+                slot = slots[j, column]
+                if number == _USUAL:  # known to the compiler
+                    _excesses(layers[slot], mean, bent, heights, _USUAL, flow, trial)
+                else:
+                    _excesses(layers[slot], mean, bent, heights, number, flow, trial)
+                before = waiting
+                for n in range(number):
+                    if trial[_EXCESS * _W + n] > 0.0:
+                        for part in range(3):
+                            flowing[part * _W + waiting] = trial[part * _W + n]
+                        flowing[_LIMIT * _W + waiting] = flow[2] + flow[3] * layers[slot, 3, n]
+                        where[0, waiting], where[1, waiting] = free[used], n
+                        waiting += 1
+                if waiting == before:
+                    last[ROOM * STRIDE + k] = _room(layers[slot], number, flow, trial)
+                    continue
+                last[ROOM * STRIDE + k] = 0.0
+                layers[free[used]] = layers[slot]
+                slots[j, column] = free[used]
+                changed[used] = j * around + column
+                where[2, elements], where[3, elements] = j, column
+                where[4, elements] = free[used]
+                used += 1
+                elements += 1
+                if waiting + number > _W:
+                    _flow(layers, flowing, where, waiting, flow)
+                    _sum_all(layers, where, elements, heights, frame, sums)
+                    waiting = elements = 0
     _flow(layers, flowing, where, waiting, flow)
-    _sum_all(layers, where, elements, heights, frame, flow, sums)
+    _sum_all(layers, where, elements, heights, frame, sums)
     return used
 
 
 @njit(cache=True, error_model="numpy")
-def sum_up(layers, slots, heights, frame, flow, sums):
+def sum_up(layers, slots, heights, frame, sums):
     """Write what the layers in the slots of all elements that have yielded add up to."""
     for j in range(slots.shape[0]):
         for k in range(slots.shape[1]):
             if slots[j, k] > 0:
                 slot = slots[j, k]
-                _sum_up(layers[slot], heights, frame, j, k, flow, sums[slot])
+                _sum_up(layers[slot], heights, heights.size, frame[j, k], sums[slot])
+
+
+def norm_of(frame: np.ndarray, heights: np.ndarray, flow: Flow) -> tuple[float, ...]:
+    """One norm of strains for all elements, by which none comes nearer to yield than it says.
+
+    That of a mean element without shear, times what an element may have more at most.
+
+    Parameters
+    ----------
+    frame : ndarray, shape (elements_along, elements_around, 7)
+    heights : ndarray
+    flow : Flow
+
+    Returns
+    -------
+    tuple of float
+        Coefficients of 11 and 22 in the sum of the stress, in its difference, of 2 12 in its shear,
+        as in `_trial`, Pa; and the height of the outermost layer, m.
+    """
+    sums, shear = flow.youngs_modulus / np.array([1 - flow.poisson_ratio, 1 + flow.poisson_ratio])
+    form = np.diag([0.0, 0.0, 0.75 * shear**2])
+    form[:2, :2] = 0.25 * sums**2 + 0.75 * shear**2 * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    f = frame.reshape(-1, 7).T
+    turned = np.zeros((f.shape[1], 3, 3))
+    turned[:, 0, 0], turned[:, 1, 0], turned[:, 1, 1], turned[:, 1, 2] = f[:4]
+    turned[:, 2, 0], turned[:, 2, 2] = f[4:6]
+    mean = np.array([f[0].mean(), f[2].mean(), f[5].mean()])
+    root = np.linalg.cholesky(form).T  # form = root' root
+    beside = root @ turned @ np.linalg.inv(root @ np.diag(mean))
+    more = (1 + 1e-9) * np.linalg.norm(beside, ord=2, axis=(1, 2)).max()
+    one, two, six = more * mean
+    return (
+        sums * one, sums * two, shear * one, shear * two, 0.5 * shear * six,
+        np.abs(heights).max(),
+    )  # fmt: skip
 
 
 def cartesian_frame(forms: np.ndarray) -> np.ndarray:
