@@ -155,6 +155,98 @@ def test_what_carries_a_weight_cannot_wait():
         crumple(heavy, Mesh(20e-3), method=Method(waiting=DAY))
     with pytest.raises(Refusal, match="weight of the foil"):
         uncrumpled(heavy, Mesh(20e-3)).waited(DAY)
-    touching = uncrumpled(FOIL, Mesh(20e-3), method=Method(contact=BarrierContact()))
-    with pytest.raises(Refusal, match="closed contacts"):
-        touching.waited(DAY)
+
+
+# --- foil that touches itself --------------------------------------------------------------------
+
+TALL = replace(FOIL, reference_height=2.2 * FOIL.gap_height, material=RELAXING)
+RUBBING = {
+    "material": {"law": "plastic", "relaxation_per_decade": 0.1},
+    "installation": {"waiting_hours": 8760},
+    "sweep": {"thickness_um": [500], "reference_height_mm": [250]},
+    "mesh": {"element_size_mm": 12},
+    "relaxation": {"ramp_steps": 800},
+    "contact": {"kind": "barrier", "friction": 0.3},
+}
+
+
+def pressed_by(crumpled):
+    """Force of the contacts, fresh ones at their full strength, in a shape."""
+    return sum(each.pressing_at(crumpled.points).force.sum() for each in crumpled.contacts())
+
+
+@pytest.fixture(scope="module")
+def rubbing(tmp_path_factory):
+    path = tmp_path_factory.mktemp("waiting") / "crumple.nc"
+    study = load_config(RUBBING)
+    crumple_job(study.crumple_task(study.cells()[0]), path)
+    return path
+
+
+def test_a_plastic_foil_that_rubs_waits_a_year(rubbing):
+    values, attributes = read_record(rubbing)
+    assert attributes["status"] == "converged", attributes["message"]
+    assert values["equilibrium_residual"] <= 1e-8 and values["negative_eigenvalues"] == 0
+    assert values["self_crossing_share"] == 0 and values["contact_gap_min"] > 0
+    back = Crumpled.recorded(rubbing)
+    energy, force = forces(back)
+    parts = ("contact", "friction", "membrane", "bending", "stabilisation", "plastic_relief")
+    told = sum(float(values[f"{name}_energy"]) for name in (*parts, "renewed"))
+    assert energy == pytest.approx(told, rel=1e-9)
+    assert float(values["reaction_force"]) == pytest.approx(-force[2, -RING_ROWS:].sum(), rel=1e-9)
+    before = back.before_waiting()
+    kept = float(values["stress_kept"])
+    assert kept < pressed_by(back) / pressed_by(before) < 1
+    # action is reaction: no force and no moment is left over
+    assert np.abs(force.sum(axis=(1, 2))).max() < 1e-8 * np.abs(force).max()
+    moment = np.cross(back.points.reshape(3, -1).T, force.reshape(3, -1).T).sum(axis=0)
+    assert np.abs(moment).max() < 1e-8 * np.abs(force).max() * back.foil.diameter
+
+
+def test_friction_keeps_its_law_while_the_foil_waits(rubbing):
+    crumpled = Crumpled.recorded(rubbing)
+    problem, points = crumpled.problem(), crumpled.points
+    place = problem.energy_names.index("friction") - len(problem.energy_names)
+    term, state = problem.terms[place], problem.state[place]
+    now = term.evolved(points, state)
+    held = term.stiffness * np.linalg.norm(now.stretched, axis=1)
+    assert (held <= 0.3 * now.contacts.force * (1 + 1e-6)).all() and held.max() > 0
+    assert now.spent == pytest.approx(state.spent, rel=1e-9)
+
+
+@pytest.fixture(scope="module")
+def touching():
+    way = RelaxationPath(ramp_steps=400)
+    return crumple(TALL, Mesh(14e-3), method=Method(way, contact=BarrierContact()))
+
+
+def test_a_foil_of_other_modulus_waits_in_the_same_shape(touching):
+    stiffer = replace(RELAXING, youngs_modulus=3 * RELAXING.youngs_modulus)
+    other = replace(touching, foil=replace(TALL, material=stiffer))
+    one, three = touching.waited(DAY), other.waited(DAY)
+    assert one.status == three.status == "converged"
+    assert np.abs(one.points - touching.points).max() > 1e-5
+    np.testing.assert_allclose(three.points, one.points, atol=1e-9)
+    force, tripled = forces(one)[1], forces(three)[1]
+    np.testing.assert_allclose(tripled, 3 * force, atol=1e-6 * np.abs(force).max())
+
+
+def test_contacts_and_forces_fall_as_time_goes_by(touching):
+    rested = [touching.waited(hours * HOUR) for hours in (1.0, 1000.0)]
+    pressed = [pressed_by(each) for each in (touching, *rested)]
+    assert pressed == sorted(pressed, reverse=True)
+    kept = np.array([each.stress_kept for each in rested])
+    assert (np.array(pressed[1:]) > kept * pressed[0]).all()
+    stiffness = [each.prestressed_stiffness() for each in (touching, *rested)]
+    assert (np.diff(stiffness, axis=0) > 0).all()
+    again = rested[0].waited(1000 * HOUR)  # since it came to rest
+    assert np.array_equal(again.points, rested[1].points)
+
+
+def test_where_nothing_touches_contact_changes_nothing(fitted):
+    near = replace(fitted, recipe=replace(fitted.recipe, method=Method(contact=BarrierContact())))
+    with_contact, without = near.waited(DAY), fitted.waited(DAY)
+    assert np.array_equal(with_contact.points, without.points)
+    assert np.array_equal(forces(with_contact)[1], forces(without)[1])
+    stiffness = [each.prestressed_stiffness() for each in (with_contact, without)]
+    assert np.array_equal(*stiffness)

@@ -337,11 +337,6 @@ class StudyConfig(Section):
             self.method,
         )
         yield from contact_problems(self.contact, use)
-        if self.contact.kind != "none" and self.installation.waiting_hours:
-            yield (
-                "installation.waiting_hours lets stress go, and with it the stiffness of closed "
-                "contacts; remove it, or set contact.kind: none."
-            )
         if self.contact.kind != "none" and self.imperfection.removal != "never":
             yield (
                 "imperfection.removal is after_buckling, which contact does not know of; remove "

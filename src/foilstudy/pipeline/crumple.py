@@ -152,7 +152,7 @@ def uncrumpled(
     if reason := clamps.beyond(foil.diameter / 2, foil.gap_height):
         raise Refusal(f"the clamping {reason}.")
     if recipe.method.waiting:
-        refuse_rest(foil, recipe.method.touches)
+        refuse_rest(foil)
     if recipe.method.touches:
         _see_that_contact_is_kept(foil, recipe)
     patch = recipe.mesh.of_ramp().patch(foil)

@@ -170,16 +170,24 @@ class Crumpled(Shape):
     def _rested(self, before: Problem) -> Problem:
         """The foil of before with all its moduli scaled down, and what has let go beside it."""
         left = replace(self, foil=self.rest.weakened(self.foil), arrival=None, rest=None)
-        problem = self.rest.problem(self, left.problem())
+        of_foil = Shape.terms(left)
+        # contacts are no stress of the foil, and stay what they were
+        contacts = before.terms[1 + len(of_foil) :]
+        problem = self.rest.problem(self, left.stressed, (*of_foil, *contacts))
         problem.restore(before.recorded())
         return problem
 
     def before_waiting(self) -> Self:
-        """The same shape at the same state, with all its stress: as its way has left it."""
-        return replace(self, rest=None) if self.rest else self
+        """The shape in which it has waited, with all its stress, as its way has left it.
+
+        What contacts rubbed and the foil yielded when they gave way is not taken back.
+        """
+        return replace(self, rest=None, points=self.rest.points) if self.rest else self
 
     def waited(self, seconds: float) -> Self:
         """The same foil after it has stood in its shape; it keeps less of its stress.
+
+        Where its parts touch it is settled then, as contacts keep what stiffness they have.
 
         Parameters
         ----------
@@ -189,12 +197,28 @@ class Crumpled(Shape):
         Raises
         ------
         Refusal
-            If parts of the foil touch or it is heavy: the shape would not stay in equilibrium.
+            If the foil is heavy: nothing would hold it up.
         """
+        if self.rest:
+            return self.before_waiting().waited(seconds)
         if seconds:
-            refuse_rest(self.foil, self.method.touches)
+            refuse_rest(self.foil)
+        rested = self._with_rest(seconds, self.points)
+        if rested.rest and any(each.closed_at(self.points) for each in self.contacts()):
+            return rested._given_way()
+        return rested
+
+    def _with_rest(self, seconds: float, points: np.ndarray) -> Self:
+        """What is left of its stress after it has stood in a shape, which it is still in."""
         kept = max(STRESS_KEPT_MIN, self.foil.material.stress_kept(seconds))
-        return replace(self, rest=Rest(kept, self.points)) if kept < 1 else self
+        return replace(self, rest=Rest(kept, points)) if kept < 1 else self
+
+    def _given_way(self) -> Self:
+        """Settled where its contacts, which have kept their strength, press it now."""
+        arrival = self.method.path.settle(self.problem(), self.points)
+        if self.arrival:
+            arrival = arrival.after(self.arrival)
+        return replace(self, points=arrival.points, arrival=arrival)
 
     def refined(self) -> Self:
         """The same shape with every element split in four, at the same state.
@@ -382,7 +406,8 @@ class Crumpled(Shape):
         element = recipe.mesh.element_at_work()
         crumpled = cls(foil, patch, points, reference, element, recipe, arrival)
         fresh = replace(crumpled, arrival=None).problem()
-        return crumpled._remembering(fresh, values).waited(recipe.method.waiting)
+        waited = values.get("waiting_control_points", points)
+        return crumpled._remembering(fresh, values)._with_rest(recipe.method.waiting, waited)
 
 
 _RECIPE = {"mesh": Mesh, "imperfection": Imperfection, "method": Method}

@@ -15,7 +15,7 @@ from foilstudy.model.shell.material.elastic import Elastic
 from foilstudy.model.shell.renewed import Renewed
 from foilstudy.model.shell.shell import Shell
 from foilstudy.pipeline.shape import Shape
-from foilstudy.solve.problem import Problem
+from foilstudy.solve.problem import Problem, Term
 
 STRESS_KEPT_MIN = 1e-9
 """So little of the stress counts as none, and leaves a problem its first term."""
@@ -56,15 +56,17 @@ class Rest:
         )
         return replace(foil, material=material)
 
-    def problem(self, shape: Shape, left: Problem) -> Problem:
+    def problem(self, shape: Shape, left: Shell, terms: tuple[Term, ...]) -> Problem:
         """The potential energy of a shape: what is left of it, and what has let go.
 
         Parameters
         ----------
         shape : Shape
             With all its strength.
-        left : Problem
+        left : Shell
             Of the weakened foil.
+        terms : tuple of Term
+            Of that foil beside it, and what acts on it.
         """
         fresh = Reset().relieved(shape.stressed, self.points)
         # elements that crumpling has made shorter are stiffer where they begin anew
@@ -73,21 +75,16 @@ class Rest:
         bound = replace(made, youngs_modulus=max(1.0, stiffer.max()) * made.youngs_modulus)
         whole = Shell(replace(shape.stressed.section, law=Elastic(bound)), shape.element)
         renewed = Renewed(fresh, 1 - self.stress_kept)
-        return Problem(left.shell, *left.terms[1:], renewed, whole=whole)
+        return Problem(left, *terms, renewed, whole=whole)
 
 
-def refuse_rest(foil: Foil, touches: bool) -> None:
-    """See that nothing but its own stress holds a foil that is to wait in its shape.
+def refuse_rest(foil: Foil) -> None:
+    """See that no weight pulls at a foil that is to wait in its shape.
 
     Raises
     ------
     Refusal
     """
-    if touches:
-        raise Refusal(
-            "stress that relaxes would take the stiffness of closed contacts with it; leave out "
-            "the waiting or the contact."
-        )
     if foil.specimen.gravity:
         raise Refusal(
             "stress that relaxes would no longer carry the weight of the foil; leave out the "

@@ -102,7 +102,15 @@ def _shape(crumpled: Crumpled) -> dict[str, np.ndarray]:
         "radial_displacement": _radial_displacement(surface, reference),
         "shortening_profile": shortening_profile(crumpled.patch, crumpled.points),
         **crumpled.problem().recorded(),
+        **_waiting_shape(crumpled),
     }
+
+
+def _waiting_shape(crumpled: Crumpled) -> dict[str, np.ndarray]:
+    """That in which it has waited, where contacts have moved it since."""
+    rest = crumpled.rest
+    moved = rest and not np.array_equal(rest.points, crumpled.points)
+    return {"waiting_control_points": rest.points} if moved else {}
 
 
 def _radial_displacement(surface: np.ndarray, reference: np.ndarray) -> np.ndarray:

@@ -263,6 +263,8 @@ def _configuration(study: StudyConfig, cell: Cell, model: CostModel) -> Expected
         steps_there = relaxing + (ramp if level == halvings else 0)
         crumpling += model.crumple_seconds(elements / 4**level, steps_there, study.yields)
     if task.contact.kind != "none":
+        if study.installation.waiting_hours:  # then contacts settle
+            crumpling += model.crumple_seconds(elements, relaxing, study.yields)
         crumpling *= 1 + model.contact * cell.overlength_percent / 100
     coordinates = model.reduced_coordinates(slenderness, study.dynamics.shown_max_hz)
     dynamic = model.dynamic_seconds(elements, coordinates)

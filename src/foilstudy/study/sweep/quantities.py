@@ -274,6 +274,9 @@ QUANTITIES: dict[str, Declared] = {
     ),
     "control_points": _record_only("m", "control points, crumpled", _CONTROL),
     "reference_control_points": _record_only("m", "control points, stress-free", _CONTROL),
+    "waiting_control_points": _record_only(
+        "m", "control points of the shape in which stress has relaxed", _CONTROL
+    ),
     "surface": _record_only("m", "surface points at the knots, crumpled", _NODE),
     "reference_surface": _record_only("m", "surface points at the knots, stress-free", _NODE),
     "radial_displacement": _record_only("m", "radial displacement", _NODE[1:]),
