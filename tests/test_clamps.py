@@ -22,6 +22,7 @@ from foilstudy.pipeline.crumple import crumple, uncrumpled
 from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.lesser import crumple_lesser
 from foilstudy.pipeline.method import Mesh, Method
+from foilstudy.pipeline.spring_back import sprung_back
 from foilstudy.solve.paths.installation import InstallationPath
 from foilstudy.solve.paths.newton import NewtonPath
 from foilstudy.solve.paths.relaxation import RelaxationPath
@@ -200,6 +201,30 @@ def test_a_ring_that_turns_keeps_what_has_slipped():
     assert np.ptp(out) > 1e-4
     flat = fitted.points[2, -RING_ROWS:] + out
     assert np.ptp(flat, axis=1).max() < 2e-6  # of slips of a millimetre under tilts of a twentieth
+
+
+def height_of_ring(shape):
+    """Where its control points were without slip: all at one height, so this is the ring's, m."""
+    flat = shape.points[2, -RING_ROWS:] + shape.problem().state[1].out[1]
+    assert np.ptp(flat, axis=1).max() < 1e-12
+    return flat.mean()
+
+
+def test_a_ring_that_is_let_go_stands_elsewhere_than_what_has_slipped(slipped):
+    free = sprung_back(slipped)
+    assert free.status == "converged"
+    assert free.height == pytest.approx(height_of_ring(free.foil), abs=1e-9)
+    assert abs(free.height - free.foil.points[2, -RING_ROWS:].mean()) > 1e-4
+
+
+def test_a_ring_that_was_let_go_comes_back_to_the_gap():
+    path = InstallationPath(ramp_steps=300, moves=(Move(shorten=1.0), Move(release=True)))
+    fitted = crumpled(Clamps(slip=1e-3, grip=600.0), Method(path))
+    assert fitted.status == "converged", fitted.message
+    assert height_of_ring(fitted) == pytest.approx(FOIL.gap_height, abs=1e-9)
+    history = fitted.arrival.history
+    joined = np.diff(history.step) == 0  # where a part of the way ends and the next begins
+    assert joined.sum() >= 2 and np.abs(np.diff(history.height)[joined]).max() < 1e-9
 
 
 def test_a_record_keeps_what_has_slipped(tmp_path):

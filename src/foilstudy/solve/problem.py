@@ -141,6 +141,10 @@ class GivingWay(Term, Protocol):
         """Norm of the forces by which it is too large, N."""
         ...
 
+    def raised(self, points: np.ndarray, state: Any) -> float:
+        """How far it has moved the control points of the top ring upwards, their mean, m."""
+        ...
+
 
 @runtime_checkable
 class Joint(Term, Protocol):
@@ -326,6 +330,12 @@ class Problem:
         return sum(
             (t.unheld(points, force, s) for t, s, gives_way in terms if gives_way), start=0.0
         )
+
+    def ring_height(self, points: np.ndarray) -> float:
+        """Height of the top ring, m: its control points but for what they have given way."""
+        terms = zip(self.terms, self.state, self._giving_way, strict=True)
+        raised = sum((t.raised(points, s) for t, s, gives_way in terms if gives_way), start=0.0)
+        return float(points[2, -RING_ROWS:].mean()) - raised
 
     def numbers(self) -> dict[str, float]:
         """What terms say of their state and of the last shape, by the names of quantities."""

@@ -346,7 +346,7 @@ class _Recorder:
             ),
         }
         message = f"{failure} (step {step})" if failure else messages[status]
-        height = points[2, -RING_ROWS:].mean() + self._ramp.shortening_at(step)
+        height = self._problem.ring_height(points) + self._ramp.shortening_at(step)
         history = History(
             steps.astype(np.int64),
             height + heights,
