@@ -453,6 +453,7 @@ def test_a_record_keeps_the_state(tmp_path):
     assert values["plastic_share"] < values["beyond_yield_share"]
     assert values["plastic_strain_max"] == state.accumulated.max() > 0.01
     assert values["dissipated_work"] == term.dissipated(state) > 0
+    assert values["work_spent"] == term.spent(state) > values["dissipated_work"]  # some is kept
     assert values["plastic_relief_energy"] < 0
     # in equilibrium as it was written
     assert back.settled().arrival.hessians == 0

@@ -97,9 +97,9 @@ def _evidence(shape: Shape, arrival: Arrival | None, stiffnesses: dict) -> Evide
     values["negative_eigenvalues"] = np.nan if count is None else count
     if arrival.history is not None:
         problem, history = shape.before_waiting().problem(), arrival.history
-        spent = problem.value(shape.points) + problem.numbers().get("dissipated_work", 0.0)
+        paid = problem.value(shape.points) + problem.work_spent()
         way = Way(history.step, history.height, history.reaction_force, history.kinetic_energy)
-        values["work_over_energy"] = work_over_energy(way, spent)
+        values["work_over_energy"] = work_over_energy(way, paid)
     return Evidence.of(arrival.status, values)
 
 

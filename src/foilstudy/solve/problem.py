@@ -141,6 +141,10 @@ class GivingWay(Term, Protocol):
         """Norm of the forces by which it is too large, N."""
         ...
 
+    def used_up(self, state: Any) -> float:
+        """Work by which it has given way, J."""
+        ...
+
     def raised(self, points: np.ndarray, state: Any) -> float:
         """How far it has moved the control points of the top ring upwards, their mean, m."""
         ...
@@ -292,6 +296,12 @@ class Problem:
         """What terms that follow have spent at a state, J."""
         pairs = zip(self.terms, state, strict=True)
         return sum((t.spent(s) for t, s in pairs if isinstance(t, Following)), start=0.0)
+
+    def work_spent(self) -> float:
+        """What the way has taken beside the energies, J: spent, and used up by supports."""
+        terms = zip(self.terms, self.state, self._giving_way, strict=True)
+        given = sum((t.used_up(s) for t, s, gives_way in terms if gives_way), start=0.0)
+        return self.spent(self.state) + given
 
     def tangent(
         self, points: np.ndarray, state: tuple[Any, ...] | None = None

@@ -109,6 +109,10 @@ class Grip:
         directions = [_outward(points, ring) for ring in _RINGS]
         return float(np.linalg.norm(self._excess(directions, force, state)))
 
+    def used_up(self, state: Slipped) -> float:
+        """See `solve.problem.GivingWay`."""
+        return state.work
+
     def raised(self, points: np.ndarray, state: Slipped) -> float:
         """See `solve.problem.GivingWay`."""
         top = 1

@@ -293,6 +293,12 @@ QUANTITIES: dict[str, Declared] = {
         )
         for name in ("contact", "ring_plane")
     },
+    "work_spent": _record_only(
+        "J",
+        "what the way took beside the energies: used up by plastic flow, friction and clamps, or "
+        "kept by hardening",
+        (),
+    ),
     "clamp_slip": _record_only(
         "m",
         "what has come out of the bottom and of the top clamp at each column of control points",
