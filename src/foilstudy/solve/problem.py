@@ -3,8 +3,7 @@
 Relaxation and minimisation take a problem and know nothing of what it is made of. The shell is the
 first term; loads, contact or the stress of a plastic foil are further ones. A term
 without memory has the state None. One with memory is evaluated at the state that was last
-committed; `commit` lets every term take note of a shape that has been reached, and `roll_back`
-takes the last of them back.
+committed; `commit` lets every term take note of a shape that has been reached.
 """
 
 from __future__ import annotations
@@ -222,7 +221,6 @@ class Problem:
             for i, name in enumerate(names)
         )
         self.state: tuple[Any, ...] = tuple(term.start() for term in self.terms)
-        self._before: tuple[Any, ...] | None = None
 
     @property
     def patch(self) -> Patch:
@@ -391,22 +389,9 @@ class Problem:
 
     def commit(self, points: np.ndarray) -> None:
         """Let every term take note that the shape has been reached."""
-        self._before = self.state
         self.state = tuple(
             t.evolved(points, s) for t, s in zip(self.terms, self.state, strict=True)
         )
-
-    def roll_back(self) -> None:
-        """Take the last `commit` back.
-
-        Raises
-        ------
-        ValueError
-            If there is none, or it has been taken back already.
-        """
-        if self._before is None:
-            raise ValueError("there is nothing to roll back: no shape has been committed")
-        self.state, self._before = self._before, None
 
 
 def _led(term: Term, points: np.ndarray, state: Any) -> Any:
