@@ -107,7 +107,9 @@ QUANTITIES: dict[str, Declared] = {
         "N/m", "static stiffness of the foil as it stands, other motions held", _DIRECTION
     ),
     "true_stiffness_free": _true(
-        "N/m", "static stiffness of the foil as it stands, other motions free", _DIRECTION
+        "N/m",
+        "static stiffness of the foil as it stands, other motions free; NaN if its ring runs away",
+        _DIRECTION,
     ),
     "true_interface_stiffness": _true(
         "N/m, N, N m",
