@@ -452,7 +452,7 @@ def test_modes_that_a_model_lacks_are_found_by_moments_at_the_limit(structure, m
 
 
 def test_modes_that_were_lacking_are_where_they_belong_once_their_number_is_right(structure):
-    """Of a model that lacks a fifth of them, all that it has are wrong by then."""
+    """A third of them would be off by up to 0.4 % without a look at how far they still move."""
     k, m = structure.stiffness.interior, structure.mass.interior
     inverse, limit = shifted(k, m, (2 * np.pi * BAND_HZ) ** 2)
     exact = np.sqrt(modes_below(k, m, limit).eigenvalues) / (2 * np.pi)
