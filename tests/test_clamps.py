@@ -11,6 +11,8 @@ from foilstudy.base.record import read_record
 from foilstudy.base.spec import dumped, loaded
 from foilstudy.config import load_config
 from foilstudy.config.foils import foil_of
+from foilstudy.measure.verdicts import Evidence
+from foilstudy.measure.verdicts.evidence import Way, work_over_energy
 from foilstudy.model.contact.options import BarrierContact
 from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.model.patch import RING_ROWS, Patch, cylinder_control_points, refine
@@ -20,15 +22,17 @@ from foilstudy.model.supports.grip import Grip
 from foilstudy.model.supports.moves import Move
 from foilstudy.pipeline.crumple import crumple, uncrumpled
 from foilstudy.pipeline.crumpled import Crumpled
+from foilstudy.pipeline.evidence import evidence_of
 from foilstudy.pipeline.lesser import crumple_lesser
 from foilstudy.pipeline.method import Mesh, Method
+from foilstudy.pipeline.spring_back import sprung_back
 from foilstudy.solve.paths.installation import InstallationPath
 from foilstudy.solve.paths.newton import NewtonPath
 from foilstudy.solve.paths.relaxation import RelaxationPath
 from foilstudy.solve.problem import Problem
 from foilstudy.solve.relaxation.loop import Ramp, StoppingRule, relax
 from foilstudy.solve.relaxation.scheme import Scheme
-from foilstudy.study.sweep.crumple import crumple_job
+from foilstudy.study.sweep.crumple import crumple_job, values_of
 
 COARSE, QUICK = Mesh(20e-3), Method(RelaxationPath(ramp_steps=400))
 RINGS = slice(0, RING_ROWS), slice(-RING_ROWS, None)
@@ -83,6 +87,17 @@ def test_a_cylinder_pulled_apart_slips_by_what_it_need_not_stretch():
         assert np.ptp(slipped.out, axis=1).max() <= 1e-3 * stop  # alike all around
         assert slipped.work == pytest.approx(limit * slipped.out.sum(axis=0).mean(), rel=1e-6)
         assert force == pytest.approx(limit * (1 + (over - way) / yields_at), rel=0.02)
+
+
+def test_work_of_a_slow_ring_is_what_is_stored_and_what_the_clamps_use_up():
+    """As much of either: pulled twice as far as the cylinder bears without slip."""
+    problem = Problem(shell := cylinder(), Grip(shell, 1e-3, GRIP))
+    ramp, rule = Ramp(-0.6e-3, 3000), StoppingRule(1e-4, 4000)
+    found = relax(problem, Scheme().start(problem), ramp, rule)
+    history, stored = found.history, problem.value(found.points)
+    assert problem.work_spent() == pytest.approx(stored, rel=0.1)
+    way = Way(history.step, history.height, history.reaction_force, history.kinetic_energy)
+    assert work_over_energy(way, stored + problem.work_spent()) == pytest.approx(1, abs=0.03)
 
 
 # --- invariants ----------------------------------------------------------------------------------
@@ -191,6 +206,23 @@ def test_a_crumple_rests_in_clamps_that_slip(slipped):
     assert loaded(Foil, dumped(slipped.foil)) == slipped.foil
 
 
+def height_of_ring(shape):
+    """Where its control points were without slip: all at one height, so this is the ring's, m."""
+    flat = shape.points[2, -RING_ROWS:] + shape.problem().state[1].out[1]
+    assert np.ptp(flat, axis=1).max() < 1e-12
+    return flat.mean()
+
+
+def test_what_the_clamps_have_used_up_is_no_loss_on_the_way(slipped):
+    """Live and of a record alike; a record that does not tell it is read without."""
+    live = evidence_of(slipped, slipped.arrival).work_over_energy
+    values = values_of(slipped)
+    assert values["work_spent"] == values["clamp_work"] > 0
+    assert Evidence.of(slipped.status, values).work_over_energy == pytest.approx(live, rel=1e-9)
+    del values["work_spent"]
+    assert Evidence.of(slipped.status, values).work_over_energy > 1.01 * live
+
+
 def test_a_ring_that_turns_keeps_what_has_slipped():
     moves = (Move(shorten=0.9, tilt=0.05), Move(shorten=1.05, tilt=-0.03))
     path = InstallationPath(ramp_steps=300, moves=moves)
@@ -198,8 +230,26 @@ def test_a_ring_that_turns_keeps_what_has_slipped():
     assert fitted.status == "converged", fitted.message
     out = fitted.arrival.state[1].out[1]
     assert np.ptp(out) > 1e-4
-    flat = fitted.points[2, -RING_ROWS:] + out
-    assert np.ptp(flat, axis=1).max() < 2e-6  # of slips of a millimetre under tilts of a twentieth
+    # about its own centre, so that it stands upright and in the middle again
+    assert height_of_ring(fitted) == pytest.approx(FOIL.gap_height, abs=1e-12)
+    assert np.abs((fitted.points - fitted.reference)[:2, -RING_ROWS:]).max() < 1e-12
+
+
+def test_a_ring_that_is_let_go_stands_elsewhere_than_what_has_slipped(slipped):
+    free = sprung_back(slipped)
+    assert free.status == "converged"
+    assert free.height == pytest.approx(height_of_ring(free.foil), abs=1e-9)
+    assert abs(free.height - free.foil.points[2, -RING_ROWS:].mean()) > 1e-4
+
+
+def test_a_ring_that_was_let_go_comes_back_to_the_gap():
+    path = InstallationPath(ramp_steps=200, moves=(Move(shorten=1.0), Move(release=True)))
+    fitted = crumpled(Clamps(slip=1e-3, grip=600.0), Method(path))
+    assert fitted.status == "converged", fitted.message
+    assert height_of_ring(fitted) == pytest.approx(FOIL.gap_height, abs=1e-9)
+    history = fitted.arrival.history
+    joined = np.diff(history.step) == 0  # where a part of the way ends and the next begins
+    assert joined.sum() >= 2 and np.abs(np.diff(history.height)[joined]).max() < 1e-9
 
 
 def test_a_record_keeps_what_has_slipped(tmp_path):

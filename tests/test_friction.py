@@ -237,7 +237,8 @@ WIDE = {"thickness_um": [500], "overlength_percent": [120], "realisations": 1}
 def test_a_crumple_that_rubs_rests_with_the_law_held(record):
     values, attributes = read_record(record)
     assert attributes["status"] == "converged", attributes["message"]
-    assert values["contact_friction_work"] > 0 and values["contact_pairs"] > 0
+    assert values["work_spent"] == values["contact_friction_work"] > 0
+    assert values["contact_pairs"] > 0
     assert 0 <= values["contact_friction_slipping_share"] <= 1
     crumpled = Crumpled.recorded(record)
     problem, points, force = crumpled.problem(), crumpled.points, np.empty_like(crumpled.points)

@@ -69,6 +69,10 @@ def ring_of(points):
     return centre.ravel(), rotation, np.abs(rest).max()
 
 
+def height_of_ring(points):
+    return points[2, -2:].mean()
+
+
 FITTED = uncrumpled(FOIL, MESH, Imperfection())
 
 
@@ -79,7 +83,7 @@ def test_a_ring_turns_as_a_rigid_body_and_the_sheet_by_its_share(attitude):
     points = FITTED.points.copy()
     share = np.clip(points[2].mean(axis=1) / FOIL.reference_height, 0, 1)
     share[:2], share[-2:] = 0.0, 1.0
-    turned = Turning(Attitude(), attitude).begun(points, share)
+    turned = Turning(Attitude(), attitude).begun(points, share, height_of_ring)
     ways = np.linspace(0, 1, 50)
     for before, after in zip(ways[:-1], ways[1:]):
         turned.move(points, before, after)
@@ -92,7 +96,7 @@ def test_a_ring_turns_as_a_rigid_body_and_the_sheet_by_its_share(attitude):
     moved = np.abs(points - FITTED.points).max(axis=(0, 2))
     assert moved[middle] == pytest.approx(0.5 * moved[-1], rel=0.1)
     # and back to where it was
-    back = Turning(attitude, Attitude()).begun(points, share)
+    back = Turning(attitude, Attitude()).begun(points, share, height_of_ring)
     back.move(points, 0.0, 1.0)
     np.testing.assert_allclose(points[:, -2:], FITTED.points[:, -2:], atol=1e-15)
 

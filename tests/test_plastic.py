@@ -31,6 +31,7 @@ from foilstudy.pipeline.crumple import crumple
 from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.pipeline.structures import stress_free_structure
+from foilstudy.solve.equilibrium.settle import SettleOptions
 from foilstudy.solve.paths.relaxation import RelaxationPath
 from foilstudy.study.sweep.crumple import crumple_job
 
@@ -370,9 +371,9 @@ COARSE = Mesh(20e-3)
 QUICK = Method(RelaxationPath(ramp_steps=400))
 
 
-def crumpled(law, yield_stress):
+def crumpled(law, yield_stress, method=QUICK):
     made = replace(FEP, law=law, yield_stress=yield_stress)
-    return crumple(replace(FOIL, material=made), COARSE, Imperfection(seed=3), QUICK)
+    return crumple(replace(FOIL, material=made), COARSE, Imperfection(seed=3), method)
 
 
 def test_a_yield_stress_out_of_reach_gives_the_elastic_crumple():
@@ -397,6 +398,23 @@ def test_a_plastic_crumple_rests_at_its_own_state(yielded):
     assert von_mises(stress - back).max() <= 12e6 * (1 + 1e-9)
     again = yielded.settled()
     assert (again.arrival.steps, again.arrival.hessians) == (0, 0)
+
+
+@pytest.mark.parametrize("rounds", [1, 10])
+def test_where_a_plastic_crumple_has_not_come_to_rest_its_state_is_that_of_its_shape(rounds):
+    """For want of steps, or of rounds."""
+    few = SettleOptions(relaxation_steps_max=0 if rounds > 1 else 20, rounds_max=rounds)
+    few = replace(few, switch_residual=0.1, hessians_per_round=1, hessians_last=1)
+    stopped = crumpled("plastic", 12e6, Method(RelaxationPath(400, settling=few)))
+    assert stopped.status == "not_converged" and stopped.arrival.newton_steps > 0
+    problem, points = stopped.problem(), stopped.points
+    here, after = problem.state, problem.followed(points)
+    assert problem.spent(after) == pytest.approx(problem.spent(here), rel=1e-12)
+    force = np.empty_like(points)
+    problem.force(points, force)
+    free = np.linalg.norm(force[:, RING_ROWS:-RING_ROWS])
+    residual = free / np.sqrt(np.linalg.norm(force) ** 2 - free**2)
+    assert stopped.arrival.residual == pytest.approx(residual, rel=1e-6)
 
 
 def test_the_tangent_is_the_unloading_secant(yielded):
@@ -435,6 +453,7 @@ def test_a_record_keeps_the_state(tmp_path):
     assert values["plastic_share"] < values["beyond_yield_share"]
     assert values["plastic_strain_max"] == state.accumulated.max() > 0.01
     assert values["dissipated_work"] == term.dissipated(state) > 0
+    assert values["work_spent"] == term.spent(state) > values["dissipated_work"]  # some is kept
     assert values["plastic_relief_energy"] < 0
     # in equilibrium as it was written
     assert back.settled().arrival.hessians == 0

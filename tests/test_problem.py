@@ -111,19 +111,6 @@ def test_a_shell_alone_is_the_problem_to_the_last_bit():
     assert (problem.tangent(points) != sheet.tangent(points)).nnz == 0
 
 
-def test_what_is_committed_can_be_rolled_back_once(mixed):
-    problem, points = mixed
-    problem = Problem(problem.shell, *problem.terms[1:])
-    before, value = problem.state, problem.value(points)
-    pulled = points + 1e-2
-    problem.commit(pulled)
-    assert problem.state != before and problem.value(points) != value
-    problem.roll_back()
-    assert problem.state == before and problem.value(points) == value
-    with pytest.raises(ValueError, match="nothing to roll back"):
-        problem.roll_back()
-
-
 def test_a_term_with_memory_settles_at_its_own_last_state():
     """The slider slips while the foil is crumpled and ends at, not beyond, its yield force."""
     sheet = imperfect_sheet(20e-3)

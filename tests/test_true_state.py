@@ -18,7 +18,7 @@ from foilstudy.model.foil import Imperfection
 from foilstudy.pipeline.crumple import crumple, uncrumpled
 from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.method import Mesh, Method
-from foilstudy.pipeline.true_state import true_state
+from foilstudy.pipeline.true_state import TrueState, true_state
 from foilstudy.present.figures import energy, history, stiffness
 from foilstudy.present.report.laws import read_laws
 from foilstudy.present.report.mesh import assess_mesh
@@ -71,6 +71,16 @@ def test_nothing_vibrates_about_an_unstable_shape():
     points[2] *= 0.99
     state = true_state(replace(start, points=points), BAND)
     assert state.negative_eigenvalues > 0 and state.vibration is None
+
+
+def test_a_ring_that_runs_away_has_no_stiffness_when_free():
+    """On springs to a ring that is held; one that pushes has an inverse like the others."""
+    springs = np.diag([2.0, 3.0, 4.0, 5.0, 6.0, 7.0])
+    held = TrueState(np.kron([[1, -1], [-1, 1]], springs), 0, 0, None)
+    np.testing.assert_allclose(held.free_stiffness, [4, 2 / (1 / 2 + 1 / 3)])
+    springs[4, 4] = -6
+    loose = TrueState(np.kron([[1, -1], [-1, 1]], springs), 0, 1, None)
+    assert np.isnan(loose.free_stiffness).all() and np.array_equal(loose.stiffness, [4, 2.5])
 
 
 def test_records_cube_and_page_have_it_where_foil_yields(tmp_path):

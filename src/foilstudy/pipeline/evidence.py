@@ -98,9 +98,9 @@ def _evidence(shape: Shape, arrival: Arrival | None, stiffnesses: dict) -> Evide
     if arrival.history is not None:
         before, history = shape.before_waiting(), arrival.history
         problem = before.problem()
-        spent = problem.value(before.points) + problem.numbers().get("dissipated_work", 0.0)
+        paid = problem.value(before.points) + problem.work_spent()
         way = Way(history.step, history.height, history.reaction_force, history.kinetic_energy)
-        values["work_over_energy"] = work_over_energy(way, spent)
+        values["work_over_energy"] = work_over_energy(way, paid)
     return Evidence.of(arrival.status, values)
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from foilstudy.base.errors import Refusal
-from foilstudy.model.patch import RING_ROWS
 from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.one_sided import ring_force
 from foilstudy.solve.equilibrium.settle import settle
@@ -70,5 +69,6 @@ def sprung_back(crumpled: Crumpled) -> SpringBack:
     settled = settle(problem, motion, last.points if last else crumpled.points, path.settling)
     arrival = arrived(problem, settled, {}, last)
     free = replace(crumpled, points=arrival.points, arrival=arrival)
-    force = ring_force(free.problem(), free.points)[2]
-    return SpringBack(float(free.points[2, -RING_ROWS:].mean()), float(force / before), free)
+    problem = free.problem()
+    force = ring_force(problem, free.points)[2]
+    return SpringBack(problem.ring_height(free.points), float(force / before), free)

@@ -14,7 +14,8 @@ import numpy as np
 from foilstudy.measure.air.protocols import Air
 from foilstudy.measure.air.vacuum import Vacuum
 from foilstudy.measure.dynamics import DynamicsOptions
-from foilstudy.measure.stiffness import fixed_stiffness
+from foilstudy.measure.stiffness import fixed_stiffness, free_stiffness
+from foilstudy.measure.stiffness.directional import DIRECTIONS
 from foilstudy.pipeline.shape import Shape
 from foilstudy.pipeline.structures import in_air, prestressed_structure
 from foilstudy.pipeline.vibration import Vibration, vibration_of
@@ -47,6 +48,13 @@ class TrueState:
     def stiffness(self) -> np.ndarray:
         """Axial and radial, other motions held, shape (2,), N/m."""
         return fixed_stiffness(self.interface)
+
+    @property
+    def free_stiffness(self) -> np.ndarray:
+        """The same with the other motions free, shape (2,), N/m; NaN where the ring runs away."""
+        if self.ring_negative_eigenvalues:
+            return np.full(len(DIRECTIONS), np.nan)
+        return free_stiffness(self.interface)
 
     def __repr__(self) -> str:
         axial, radial = self.stiffness

@@ -3,8 +3,7 @@
 Relaxation and minimisation take a problem and know nothing of what it is made of. The shell is the
 first term; loads, contact or the stress of a plastic foil are further ones. A term
 without memory has the state None. One with memory is evaluated at the state that was last
-committed; `commit` lets every term take note of a shape that has been reached, and `roll_back`
-takes the last of them back.
+committed; `commit` lets every term take note of a shape that has been reached.
 """
 
 from __future__ import annotations
@@ -141,6 +140,14 @@ class GivingWay(Term, Protocol):
         """Norm of the forces by which it is too large, N."""
         ...
 
+    def used_up(self, state: Any) -> float:
+        """Work by which it has given way, J."""
+        ...
+
+    def raised(self, points: np.ndarray, state: Any) -> float:
+        """How far it has moved the control points of the top ring upwards, their mean, m."""
+        ...
+
 
 @runtime_checkable
 class Joint(Term, Protocol):
@@ -214,7 +221,6 @@ class Problem:
             for i, name in enumerate(names)
         )
         self.state: tuple[Any, ...] = tuple(term.start() for term in self.terms)
-        self._before: tuple[Any, ...] | None = None
 
     @property
     def patch(self) -> Patch:
@@ -289,6 +295,12 @@ class Problem:
         pairs = zip(self.terms, state, strict=True)
         return sum((t.spent(s) for t, s in pairs if isinstance(t, Following)), start=0.0)
 
+    def work_spent(self) -> float:
+        """What the way has taken beside the energies, J: spent, and used up by supports."""
+        terms = zip(self.terms, self.state, self._giving_way, strict=True)
+        given = sum((t.used_up(s) for t, s, gives_way in terms if gives_way), start=0.0)
+        return self.spent(self.state) + given
+
     def tangent(
         self, points: np.ndarray, state: tuple[Any, ...] | None = None
     ) -> sparse.csr_matrix:
@@ -326,6 +338,12 @@ class Problem:
         return sum(
             (t.unheld(points, force, s) for t, s, gives_way in terms if gives_way), start=0.0
         )
+
+    def ring_height(self, points: np.ndarray) -> float:
+        """Height of the top ring, m: its control points but for what they have given way."""
+        terms = zip(self.terms, self.state, self._giving_way, strict=True)
+        raised = sum((t.raised(points, s) for t, s, gives_way in terms if gives_way), start=0.0)
+        return float(points[2, -RING_ROWS:].mean()) - raised
 
     def numbers(self) -> dict[str, float]:
         """What terms say of their state and of the last shape, by the names of quantities."""
@@ -371,22 +389,9 @@ class Problem:
 
     def commit(self, points: np.ndarray) -> None:
         """Let every term take note that the shape has been reached."""
-        self._before = self.state
         self.state = tuple(
             t.evolved(points, s) for t, s in zip(self.terms, self.state, strict=True)
         )
-
-    def roll_back(self) -> None:
-        """Take the last `commit` back.
-
-        Raises
-        ------
-        ValueError
-            If there is none, or it has been taken back already.
-        """
-        if self._before is None:
-            raise ValueError("there is nothing to roll back: no shape has been committed")
-        self.state, self._before = self._before, None
 
 
 def _led(term: Term, points: np.ndarray, state: Any) -> Any:

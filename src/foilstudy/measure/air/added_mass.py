@@ -78,7 +78,7 @@ class AddedMass:
         area = surface.wall.area / flux.shape[0]
         local = (self.density * air.local / area) * (flux.T @ flux)
         swept = flux.T @ air.shapes
-        return mass.plus(InterfaceSystem.split(sparse.csr_matrix(local), rings)).updated(
+        return (mass + InterfaceSystem.split(sparse.csr_matrix(local), rings)).updated(
             swept[rings.interior],
             rings.motion.T @ swept[rings.boundary],
             self.density * air.weights,

@@ -30,6 +30,7 @@ class InterfaceSystem:
         return f"<InterfaceSystem: {self.interior.shape[0]} interior unknowns>"
 
     def __add__(self, other: InterfaceSystem) -> InterfaceSystem:
+        """Of two without a term of low rank."""
         return InterfaceSystem(
             (self.interior + other.interior).tocsr(),
             self.coupling + other.coupling,
@@ -45,14 +46,6 @@ class InterfaceSystem:
             interior_rows[:, rings.interior[0] : rings.interior[-1] + 1].tocsr(),
             interior_rows[:, rings.boundary] @ rings.motion,
             rings.motion.T @ (boundary_rows[:, rings.boundary] @ rings.motion),
-        )
-
-    def plus(self, other: InterfaceSystem) -> InterfaceSystem:
-        """The sum of two systems, neither with a term of low rank."""
-        return InterfaceSystem(
-            (self.interior + other.interior).tocsr(),
-            self.coupling + other.coupling,
-            self.interface + other.interface,
         )
 
     def updated(

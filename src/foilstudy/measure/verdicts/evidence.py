@@ -105,7 +105,7 @@ def work_over_energy(way: Way, energy: float) -> float:
     ----------
     way : Way
     energy : float
-        Stored at the end, and used up by plastic flow, J.
+        Stored at the end, with what the way has spent beside, by plastic flow or friction, J.
 
     Returns
     -------
@@ -131,10 +131,11 @@ def _work_of_record(values: Mapping[str, Any]) -> float:
     )
     # what waiting has taken off the energy, the way has put in
     stored /= float(values.get("stress_kept", 1.0))
-    used_up = float(values.get("dissipated_work", 0.0))
+    # records of earlier releases tell of plastic flow alone
+    spent = float(values.get("work_spent", values.get("dissipated_work", 0.0)))
     names = ("step", "height", "reaction_force", "kinetic_energy")
     way = Way(*(np.asarray(values[f"history_{name}"]) for name in names))
-    return work_over_energy(way, stored + used_up)
+    return work_over_energy(way, stored + spent)
 
 
 def least_stiffness(interface: np.ndarray) -> float:

@@ -28,8 +28,6 @@ class Blocks:
     surface : Triangulation
     bounds : ndarray of int, shape (blocks, 4)
         Rows from and until, then columns from and until, of each block.
-    across : int
-        Blocks around.
     knots : ndarray of int
         Of all blocks in turn.
     starts : ndarray of int, shape (blocks + 1,)
@@ -38,7 +36,6 @@ class Blocks:
 
     surface: Triangulation
     bounds: np.ndarray
-    across: int
     knots: np.ndarray
     starts: np.ndarray
 
@@ -107,7 +104,7 @@ def blocks_of(surface: Triangulation) -> Blocks:
     )
     members = [np.unique(surface.corners[_elements(each, columns)]) for each in bounds]
     starts = np.concatenate([[0], np.cumsum([len(each) for each in members])])
-    return Blocks(surface, bounds, across, np.concatenate(members), starts)
+    return Blocks(surface, bounds, np.concatenate(members), starts)
 
 
 class Distances:

@@ -109,6 +109,15 @@ class Grip:
         directions = [_outward(points, ring) for ring in _RINGS]
         return float(np.linalg.norm(self._excess(directions, force, state)))
 
+    def used_up(self, state: Slipped) -> float:
+        """See `solve.problem.GivingWay`."""
+        return state.work
+
+    def raised(self, points: np.ndarray, state: Slipped) -> float:
+        """See `solve.problem.GivingWay`."""
+        top = 1
+        return float(np.mean(state.out[top] * _outward(points, _RINGS[top])[2]))
+
     def numbers(self, state: Slipped) -> dict[str, float]:
         """See `solve.problem.Telling`."""
         return {

@@ -197,25 +197,23 @@ def settle(
         if at_saddle:
             step = points - before  # far enough for the relaxation to notice: a thickness
             points = before + step * (problem.shell.thickness / np.abs(step).max())
-        if polished.status != "converged":
-            if last:
-                break
+        converged = polished.status == "converged"
+        if not converged and stop:
             continue
+        # also where it has not converged: what is measured belongs to the shape that is returned
         residual = _committed(problem, points, polished.residual)
         unheld = _unheld(problem, points)
-        if residual <= options.residual_tolerance and unheld <= options.switch_residual:
+        rests = residual <= options.residual_tolerance and unheld <= options.switch_residual
+        if converged and rests:
             return SettleResult(
                 "converged", polished.message, points, residual, polished.negative_eigenvalues,
                 steps, hessians, newton_steps, motion.shortened_steps,
             )  # fmt: skip
-        polished = replace(
-            polished,
-            residual=residual,
-            message=(
-                f"relative residual {max(residual, unheld):.1e} once the state had followed the "
-                "shape"
-            ),
-        )
+        if problem.has_memory:
+            after = f"{max(residual, unheld):.1e} once the state had followed the shape"
+            polished = replace(polished, residual=residual, message=f"{polished.message}; {after}")
+        if last and not converged:
+            break
     return SettleResult(
         "not_converged", polished.message, points, polished.residual,
         polished.negative_eigenvalues, steps, hessians, newton_steps, motion.shortened_steps,

@@ -112,4 +112,4 @@ def _ring(problem: Problem, points: np.ndarray) -> tuple[float, float]:
     """Height of the top ring, m, and the axial force by which the sheet pushes it up, N."""
     force = np.empty_like(points)
     problem.force(points, force)
-    return float(points[2, -RING_ROWS:].mean()), -float(force[2, -RING_ROWS:].sum())
+    return problem.ring_height(points), -float(force[2, -RING_ROWS:].sum())

@@ -216,7 +216,7 @@ def relax(
         )
         share = np.clip(points[2].mean(axis=1) / height, 0.0, 1.0)
     share[:RING_ROWS], share[-RING_ROWS:] = 0.0, 1.0
-    turned = ramp.turning.begun(points, share) if ramp.turning else None
+    turned = ramp.turning.begun(points, share, problem.ring_height) if ramp.turning else None
     force = np.empty_like(points)
     momentum = np.zeros((3, free[1] - free[0], points.shape[2]))
     velocity = np.zeros_like(momentum)
@@ -346,7 +346,7 @@ class _Recorder:
             ),
         }
         message = f"{failure} (step {step})" if failure else messages[status]
-        height = points[2, -RING_ROWS:].mean() + self._ramp.shortening_at(step)
+        height = self._problem.ring_height(points) + self._ramp.shortening_at(step)
         history = History(
             steps.astype(np.int64),
             height + heights,

@@ -18,6 +18,7 @@ from foilstudy.model.patch import RING_ROWS, knot_points
 from foilstudy.pipeline.crumpled import Crumpled, described
 from foilstudy.pipeline.evidence import sensors
 from foilstudy.pipeline.retry import attempted
+from foilstudy.solve.problem import Problem
 from foilstudy.solve.relaxation import History
 from foilstudy.study.sweep.origins import crumple_origin
 from foilstudy.study.sweep.outcome import Outcome, Values, outcome_of
@@ -140,16 +141,17 @@ def _numbers(crumpled: Crumpled) -> dict[str, float]:
         **sensors(crumpled),
         **({"free_height": arrival.free_heights[-1]} if arrival.free_heights else {}),
         **problem.numbers(),
-        **_used_up(crumpled),
+        **_used_up(crumpled, problem),
         **({"stress_kept": crumpled.stress_kept} if crumpled.beyond_elastic else {}),
         **localisation(patch, points),
         **({"contact_shortened_steps": float(arrival.shortened_steps)} if touches else {}),
     }
 
 
-def _used_up(crumpled: Crumpled) -> dict[str, float]:
+def _used_up(crumpled: Crumpled, problem: Problem) -> dict[str, float]:
     """Waiting weakens what is left of a foil, but takes back nothing that was used up before."""
-    if not crumpled.rest:
+    if not problem.has_memory:
         return {}
-    before = crumpled.before_waiting().problem().numbers()
-    return {name: value for name, value in before.items() if name == "dissipated_work"}
+    before = crumpled.before_waiting().problem() if crumpled.rest else problem
+    kept = {name: value for name, value in before.numbers().items() if name == "dissipated_work"}
+    return kept | {"work_spent": before.work_spent()}

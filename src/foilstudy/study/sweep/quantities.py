@@ -107,7 +107,9 @@ QUANTITIES: dict[str, Declared] = {
         "N/m", "static stiffness of the foil as it stands, other motions held", _DIRECTION
     ),
     "true_stiffness_free": _true(
-        "N/m", "static stiffness of the foil as it stands, other motions free", _DIRECTION
+        "N/m",
+        "static stiffness of the foil as it stands, other motions free; NaN if its ring runs away",
+        _DIRECTION,
     ),
     "true_interface_stiffness": _true(
         "N/m, N, N m",
@@ -296,6 +298,12 @@ QUANTITIES: dict[str, Declared] = {
         )
         for name in ("contact", "ring_plane")
     },
+    "work_spent": _record_only(
+        "J",
+        "what the way took beside the energies: used up by plastic flow, friction and clamps, or "
+        "kept by hardening",
+        (),
+    ),
     "clamp_slip": _record_only(
         "m",
         "what has come out of the bottom and of the top clamp at each column of control points",

@@ -182,7 +182,7 @@ def _true(crumpled: Crumpled, options: DynamicsOptions, air: Air) -> Values:
         return {}
     values: Values = {
         "true_stiffness": state.stiffness,
-        "true_stiffness_free": free_stiffness(state.interface),
+        "true_stiffness_free": state.free_stiffness,
         "true_interface_stiffness": state.interface,
         "true_negative_eigenvalues": float(state.negative_eigenvalues),
         "true_ring_negative_eigenvalues": float(state.ring_negative_eigenvalues),
