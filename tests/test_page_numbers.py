@@ -141,7 +141,8 @@ def test_thin_foil_stands_beside_the_law_that_leaves_it_out(results):
         alone, together = (float(row[4].split()[0]) for row in rows if row[0] == direction)
         assert alone == pytest.approx(LAW[direction][2], abs=0.1)
         assert together < alone - 0.2  # twice as stiff at the thin end
-    ratios = [float(row[4]) for row in cells(beside)]
+    assert {row[1] for row in cells(beside)} == {"50"}
+    ratios = [float(row[5]) for row in cells(beside)]
     assert ratios == pytest.approx(6 * [2.0], rel=0.25)
 
 
@@ -177,7 +178,7 @@ def test_no_law_is_made_of_what_is_not_trusted(tmp_path):
 
 def test_ramps_are_those_of_each_thickness(results):
     ramps = {row[0]: row[1] for row in cells(block("steps", *studies(results, "resolved")))}
-    assert ramps == {"130 µm": "7692", "250 µm": "4000", "500 µm": "2000"}
+    assert ramps == {"130 µm": "30769", "250 µm": "16000", "500 µm": "8000"}
 
 
 def test_a_missing_study_is_named_with_the_command_that_makes_it(results, tmp_path):

@@ -22,7 +22,7 @@ from foilstudy.model.shell.elements import sampling
 from foilstudy.model.shell.elements.corner import Corner
 from foilstudy.model.shell.elements.mean_strains import SampledMeanStrains
 from foilstudy.model.shell.elements.one_point import OnePoint
-from foilstudy.model.shell.material.layers import Layers
+from foilstudy.model.shell.material.layers import Layers, Look
 from foilstudy.model.shell.material.plastic import LAYERS, Plastic, PlasticTerm, layer_heights
 from foilstudy.model.shell.material.return_map import ROOM, Flow, increment
 from foilstudy.model.shell.section import Section
@@ -126,13 +126,13 @@ class WidePlate:
         self.heights = layer_heights(LAYERS, thickness)
         frame = np.array([1.0, 0, 1, 0, 0, 1, thickness]).reshape(1, 7, 1)
         self.state = Layers(frame, self.heights, self.flow).untouched()
-        self.seen, self.room = np.zeros((1, 6, 1)), np.full((1, 1), -np.inf)
+        self.look = Look((1, 1))
 
     def moment(self, ratio):
         """Over the elastic limit moment, at a curvature over that of the elastic limit."""
         strain = np.zeros((1, 6, 1))
         strain[0, 3] = ratio * self.first
-        self.state = self.state.foil.flowed(strain, self.state, self.seen, self.room)
+        self.state = self.state.foil.flowed(strain, None, self.state, self.look)
         k1, k2 = (strain - self.state.strains)[0, 3:5, 0]
         return (k1 + self.flow.poisson_ratio * k2) / self.first
 
