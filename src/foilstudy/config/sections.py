@@ -425,7 +425,8 @@ class Relaxation(Section):
     ramp_slowness: float | None = unit_field(
         "steps",
         "Those steps for each unit of radius over thickness, as thin foil moves slowly; only where "
-        "`ramp_steps` is left out. " + tier_words("relaxation.ramp_slowness"),
+        "`ramp_steps` is left out. An axial stiffness wants 40. "
+        + tier_words("relaxation.ramp_slowness"),
         None,
         gt=0,
         le=10_000,
