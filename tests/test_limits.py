@@ -84,12 +84,14 @@ def test_names_of_cases_tell_settings_apart():
 
 def test_a_malformed_file_is_refused_with_the_place(tmp_path):
     path = tmp_path / "limits.yaml"
-    path.write_text("foils: []\nquick: []\nmethods: [{group: mass}]\n")
+    path.write_text("ramp_slowness: 10\nfoils: []\nquick: []\nmethods: [{group: mass}]\n")
     with pytest.raises(ConfigError, match=r"limits.yaml: methods.0.method: Field required"):
         read_limits(path)
     measures = "measures: {foils: [], ways: []}\n"
     measures += "bounds: {vibrating: [], quarters: [], ways: [], budget: 1}"
-    path.write_text(f"foils: []\nquick: []\nmethods: [{{group: a, method: b}}]\n{measures}\n")
+    path.write_text(
+        f"ramp_slowness: 10\nfoils: []\nquick: []\nmethods: [{{group: a, method: b}}]\n{measures}\n"
+    )
     with pytest.raises(ConfigError, match="none is called 'default'"):
         read_limits(path)
 

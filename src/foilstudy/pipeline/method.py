@@ -18,7 +18,7 @@ from foilstudy.model.shell.elements import ELEMENTS
 from foilstudy.model.shell.elements.protocol import Element
 from foilstudy.solve.choices import PATHS
 from foilstudy.solve.equilibrium.settle import SettleOptions
-from foilstudy.solve.pace import ramp_steps, rest_steps
+from foilstudy.solve.pace import SLOWNESS, ramp_steps, rest_steps
 from foilstudy.solve.paths import Path
 from foilstudy.solve.paths.relaxation import RelaxationPath
 
@@ -96,12 +96,12 @@ class Method:
         require_number("waiting time of a method", self.waiting, "s", least=0)
 
     @classmethod
-    def following(cls, foil: Foil) -> Self:
+    def following(cls, foil: Foil, slowness: float = SLOWNESS) -> Self:
         """The standard one, with a ramp that the foil can follow: thin foil moves slowly.
 
-        That of a study of standard accuracy; see `foilstudy.solve.pace`.
+        Left out, `slowness` is that of a study of standard accuracy; see `foilstudy.solve.pace`.
         """
-        steps = ramp_steps(foil.diameter / 2 / foil.thickness)
+        steps = ramp_steps(foil.diameter / 2 / foil.thickness, slowness)
         settling = SettleOptions(relaxation_steps_max=rest_steps(steps))
         return cls(RelaxationPath(steps, settling=settling))
 

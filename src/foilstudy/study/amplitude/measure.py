@@ -14,11 +14,12 @@ from foilstudy.model.foil import Imperfection
 from foilstudy.pipeline.amplitude import SweepPlan, clamped_modes, ring_sweep
 from foilstudy.pipeline.crumple import crumple, uncrumpled
 from foilstudy.pipeline.crumpled import Crumpled
-from foilstudy.pipeline.method import Mesh
+from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.study.amplitude.plan import (
     AMPLITUDE_MM,
     MODES,
     PERIODS,
+    RAMP_SLOWNESS,
     Letting,
     Shape,
     State,
@@ -26,7 +27,6 @@ from foilstudy.study.amplitude.plan import (
 )
 from foilstudy.study.kernel.plan import Record
 from foilstudy.study.published import foil
-from foilstudy.study.tradeoff.ensembles import method_for
 
 
 def crumple_shape(case: Shape) -> dict:
@@ -39,7 +39,8 @@ def crumple_shape(case: Shape) -> dict:
     """
     sheet = foil(case.thickness_um, case.height_mm)
     mesh, imperfection = _scene(case)
-    crumpled = crumple(sheet, mesh, imperfection, method_for(sheet))
+    method = Method.following(sheet, RAMP_SLOWNESS)
+    crumpled = crumple(sheet, mesh, imperfection, method)
     if crumpled.status != "converged":
         raise RuntimeError(f"{case} did not settle: {crumpled.message}")
     return {"message": crumpled.message, "points": crumpled.points}

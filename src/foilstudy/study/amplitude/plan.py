@@ -8,6 +8,8 @@ from foilstudy.study.kernel.plan import Lazy, Part, Study, results
 from foilstudy.study.published import HEIGHT_MM, THICKNESSES_UM
 
 SIZE_MM, COARSE_MM = 5.0, 10.0
+RAMP_SLOWNESS = 10.0
+"""A quarter of that of a study: any shape of these coarse meshes will do."""
 """Of the elements of sweeps; of those of time integrations, each of which takes thousands of steps
 a period."""
 SEED = 0

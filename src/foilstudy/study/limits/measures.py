@@ -21,8 +21,8 @@ from foilstudy.study.changes import changed
 from foilstudy.study.kernel.plan import Records
 from foilstudy.study.limits.measured import Measured
 from foilstudy.study.limits.plan import LIMITS
+from foilstudy.study.limits.trial import baseline
 from foilstudy.study.published import foil
-from foilstudy.study.tradeoff.ensembles import method_for
 
 REFERENCE = "tangent"
 """The measure, and by `Reset` the stress removal, to which the others are compared."""
@@ -38,7 +38,7 @@ def measure(case: Measured) -> dict:
         with ``stiffness`` (axial and radial, N/m; None where there is none) and ``message``.
     """
     sheet = foil(case.thickness_um, case.height_mm)
-    method = method_for(sheet)
+    method = baseline(sheet)
     if case.ramp_steps is not None:
         method = changed(method, "path.ramp_steps", case.ramp_steps)
     crumpled = crumple(sheet, Mesh(case.size_mm * 1e-3), Imperfection(seed=case.seed), method)

@@ -125,8 +125,12 @@ class Bounds(Section):
 
 
 class Limits(Section):
-    """All that is tried, in full and in the corner that takes minutes."""
+    """All that is tried, in full and in the corner that takes minutes.
 
+    `ramp_slowness` is that of the default, and of every method that does not change the ramp.
+    """
+
+    ramp_slowness: float = pydantic.Field(gt=0)
     foils: tuple[MappedFoil, ...] = pydantic.Field(**_List)
     quick: tuple[MappedFoil, ...] = pydantic.Field(**_List)
     methods: tuple[Mapped, ...] = pydantic.Field(**_List)

@@ -13,11 +13,10 @@ from foilstudy.model.foil import Foil, Imperfection
 from foilstudy.pipeline.crumple import crumple
 from foilstudy.pipeline.crumpled import Crumpled, Recipe
 from foilstudy.pipeline.evidence import evidence_of
-from foilstudy.pipeline.method import Mesh
+from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.study.changes import Value, changed
-from foilstudy.study.limits.plan import Trial, setting_of
+from foilstudy.study.limits.plan import LIMITS, Trial, setting_of
 from foilstudy.study.published import foil
-from foilstudy.study.tradeoff.ensembles import method_for
 
 _OVER_THICKNESS = "_over_t"
 
@@ -42,9 +41,14 @@ def measure(trial: Trial) -> dict:
     return _judged(crumpled)
 
 
+def baseline(sheet: Foil) -> Method:
+    """That of a study, in the ramp of the map."""
+    return Method.following(sheet, LIMITS.ramp_slowness)
+
+
 def recipe_of(trial: Trial, sheet: Foil) -> Recipe:
-    """That of a study with standard accuracy, changed as the method says."""
-    recipe = Recipe(Mesh(trial.size_mm * 1e-3), Imperfection(), method_for(sheet))
+    """The baseline, changed as the method says."""
+    recipe = Recipe(Mesh(trial.size_mm * 1e-3), Imperfection(), baseline(sheet))
     for place, value in setting_of(trial).changes:
         recipe = changed(recipe, *_in_metres(place, value, sheet))
     return recipe

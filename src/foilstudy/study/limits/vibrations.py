@@ -32,8 +32,8 @@ from foilstudy.pipeline.crumple import crumple
 from foilstudy.pipeline.method import Mesh
 from foilstudy.pipeline.structures import prestressed_structure, stress_free_structure
 from foilstudy.study.limits.bounds import Vibrating
+from foilstudy.study.limits.trial import baseline
 from foilstudy.study.published import foil
-from foilstudy.study.tradeoff.ensembles import method_for
 
 OVER_CUTOFF = (0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 4.0)
 """Frequencies at which a reduced model is held against the truth, over its cut-off."""
@@ -55,7 +55,7 @@ def measure(case: Vibrating) -> dict:
     """
     sheet = foil(case.thickness_um, case.height_mm)
     mesh, imperfection = Mesh(case.size_mm * 1e-3), Imperfection(seed=case.seed)
-    crumpled = crumple(sheet, mesh, imperfection, method_for(sheet))
+    crumpled = crumple(sheet, mesh, imperfection, baseline(sheet))
     if crumpled.status != "converged":
         return {"status": crumpled.status}
     structure, stressed = stress_free_structure(crumpled), prestressed_structure(crumpled)

@@ -23,6 +23,7 @@ from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.pipeline.static import mesh_limit_within, stress_free_stiffness
 from foilstudy.pipeline.structures import stress_free_structure
+from foilstudy.solve.paths.relaxation import RelaxationPath
 from foilstudy.study.elements.plan import DEFAULT
 from foilstudy.study.elements.variants import VARIANTS
 from foilstudy.study.kernel.plan import Record
@@ -102,7 +103,7 @@ def _recipe(case: CrumpleCase) -> tuple[Foil, Mesh, Imperfection, Method]:
     """With one ramp for all: any shape will do, and what is charted is measured on the same."""
     sheet = foil(case.thickness_um, case.height_mm)
     mesh = Mesh(case.size_mm * 1e-3, case.element)
-    return sheet, mesh, Imperfection(seed=case.seed), Method()
+    return sheet, mesh, Imperfection(seed=case.seed), Method(RelaxationPath(ramp_steps=2000))
 
 
 def _found(point: Point, shapes: Mapping[CrumpleCase, Record]) -> dict:
