@@ -14,6 +14,7 @@ from foilstudy.config import ConfigError, StudyConfig, load_config, load_merged
 from foilstudy.config.accuracy import ACCURACIES, STANDARD, completed
 from foilstudy.config.chosen import accuracy_words, choices
 from foilstudy.config.foils import patch_of
+from foilstudy.config.slips import hurried
 from foilstudy.measure.stiffness import limit_by_need
 from foilstudy.model.mesh_size import expected_energy_error
 from foilstudy.study.sweep.expected import expected
@@ -99,9 +100,9 @@ def test_steps_of_the_ramp_win_over_its_slowness():
 @pytest.mark.parametrize(
     ("thickness_um", "given", "most"),
     [
-        (50, {}, 140_000),
-        (500, {}, 14_000),
-        (1000, {}, 14_000),  # fewer would save nothing
+        (50, {}, 560_000),
+        (500, {}, 56_000),
+        (1000, {"ramp_slowness": 10}, 14_000),  # fewer would save nothing
         (50, {"ramp_slowness": 4}, 56_000),
         (50, {"ramp_steps": 2000}, 14_000),  # as in configurations of before
         (50, {"relaxation_steps_max": 300}, 300),
@@ -196,14 +197,28 @@ def test_keys_that_overrule_the_word_are_named():
 
 
 def test_choices_say_for_each_thickness_what_it_gets_and_why():
-    head, thin, thick = choices(study(accuracy="quick"))
+    head, thin, thick, told = choices(study(accuracy="quick"))
     assert head == "Accuracy quick"
     assert thin.startswith("  130 um: elements of 2.6 mm (25 % energy error), 3077 steps of ramp")
     assert thick.startswith("  500 um: elements of 5.1 mm (25 % energy error), 800 steps of ramp")
     assert thick.endswith("shape refined to 10 %, at most twice, reduction to 0.01")
+    assert "The ramp hurries foil of 130, 500 um: 4.0 steps" in told
     _, both, *told = choices(study(mesh={"element_size_mm": 5}, relaxation={"ramp_steps": 2000}))
-    assert len(told) == 2  # of folds that are not resolved, and of first buckles that come early
+    assert len(told) == 3  # of folds not resolved, of first buckles that come early, of the ramp
     assert both.startswith("  130 to 500 um: elements of 5 mm (as given), 2000 steps of ramp")
+
+
+def test_a_ramp_that_hurries_a_foil_is_said_where_there_is_one():
+    """In the steps of the published study 500 um has 10 for each unit of R/t, 130 um 2.6."""
+    assert hurried(study()) == hurried(study(accuracy="fine")) == []
+    (sentence,) = hurried(study(relaxation={"ramp_steps": 2000}))
+    assert sentence.startswith("The ramp hurries foil of 130, 500 um: 2.6 to 10 steps for each")
+    (sentence,) = hurried(study(relaxation={"ramp_steps": 8000}))
+    assert sentence.startswith("The ramp hurries foil of 130 um: 10 steps")
+    steps = {"relaxation": {"ramp_steps": 2000}}
+    installation = {"moves": [{"shorten_percent": 125}]}
+    assert hurried(study(method={"path": "installation"}, installation=installation, **steps))
+    assert not hurried(study(method={"path": "minimisation"}, **steps))
 
 
 def test_a_size_that_the_tolerance_does_not_decide_says_what_does():

@@ -360,6 +360,17 @@ def test_the_page_names_the_accuracy_and_what_overrules_it(tmp_path):
     assert "accuracy quick, overruled by relaxation.ramp_steps: 3000" in page
 
 
+def test_the_first_screen_says_of_a_ramp_that_hurries_the_foil(tmp_path):
+    for steps, said in (
+        (3000, "The ramp hurries foil of 250, 500 µm: 7.5 to 15 steps"),
+        (40000, ""),
+    ):
+        cube = sized_by_word(folded_cube(40), "standard", relaxation={"ramp_steps": steps})
+        page = written(cube, tmp_path)
+        first = words(page[page.index('id="first"') : page.index("</section>")])
+        assert ("The ramp hurries" in first) == bool(said) and said in first
+
+
 def test_foil_that_no_mesh_resolves_is_left_out_of_the_cure(tmp_path):
     thin = make_cube((1.0, 500.0), (135.0, 250.0), 1, case=COARSE)
     first, *_ = cures(thin, Need(mesh=True, refinements=None))

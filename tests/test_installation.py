@@ -144,7 +144,7 @@ def test_a_configuration_chooses_the_moves():
     (cell, *_) = study.cells()
     path = recipe_of(study.crumple_task(cell)).method.path
     assert path.moves == (Move(1.25, 0.02), Move(shift=2e-3, cycles=3), Move(release=True))
-    assert path.ramp_steps == 2000 and study.lets_go
+    assert path.ramp_steps == 8000 and study.lets_go
     yielding = study.model_copy(update={"installation": Installation()})
     assert not yielding.lets_go
 

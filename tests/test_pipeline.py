@@ -29,6 +29,7 @@ from foilstudy.pipeline.crumple import uncrumpled
 from foilstudy.pipeline.measures import STIFFNESS_MEASURES
 from foilstudy.solve.choices import DAMPINGS, MASSES, PATHS, SEARCHES
 from foilstudy.solve.equilibrium.settle import SettleOptions
+from foilstudy.solve.pace import SLOWNESS
 from foilstudy.solve.paths.relaxation import RelaxationPath
 from foilstudy.study.sweep.crumple import crumple_job, values_of
 from foilstudy.study.sweep.quantities import quantities
@@ -242,7 +243,7 @@ def test_without_a_method_a_foil_is_crumpled_as_by_a_study(thickness_um):
     foil = replace(FOIL, thickness=thickness_um * 1e-6)
     method = uncrumpled(foil, COARSE).method
     assert method == recipe_of(study.crumple_task(study.cells()[0])).method
-    assert method.path.ramp_steps == round(10 * 0.1 / foil.thickness)
+    assert method.path.ramp_steps == round(SLOWNESS * 0.1 / foil.thickness)
     assert (method == Method()) == (thickness_um == 500)
 
 

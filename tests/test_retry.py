@@ -37,7 +37,7 @@ def test_a_crumple_that_diverges_is_tried_again_and_says_so():
     assert "; safer settings, after attempt 1: diverged (the stepping" in attempts.message
     # what made it stands in its recipe
     path = crumpled.method.path
-    assert path.scheme.mass.safety == 3.0 and path.ramp_steps == 4000
+    assert path.scheme.mass.safety == 3.0 and path.ramp_steps == 8000
 
 
 def test_a_sound_crumple_is_made_once_and_is_that_of_no_retries():
@@ -115,7 +115,7 @@ def test_a_record_says_which_attempt_it_is_of(tmp_path):
     assert records.crumple["attempt"] == 2
     assert '"kind": "spectral"' in records.crumple_attributes["method"]
     assert "after attempt 1: " in records.response_attributes["message"]
-    assert Crumpled.recorded(tmp_path / "crumple.nc").method.path.ramp_steps == 2000
+    assert Crumpled.recorded(tmp_path / "crumple.nc").method.path.ramp_steps == 8000
 
 
 def test_the_report_counts_them_and_the_cube_has_them_only_where_asked_for():

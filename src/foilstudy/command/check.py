@@ -41,7 +41,7 @@ def check(file: Path, /, *, cores: Cores = 2) -> None:
     file : Path
         YAML file of the study.
     """
-    from foilstudy.config.slips import known_to_fail, likely_slips, unresolved
+    from foilstudy.config.slips import hurried, known_to_fail, likely_slips, unresolved
     from foilstudy.study.sweep.expected import costly, expected
 
     study = read_study(file)
@@ -53,7 +53,7 @@ def check(file: Path, /, *, cores: Cores = 2) -> None:
     lines = [f"{file}: no problem; results go to results/{study.study.name}.", ""]
     lines += (f"{name:10} {text}" for name, text in _resolved(study))
     lines += ["", *_table(study, cost), "", *_summary(cost, cores), *_least(study, cores)]
-    lines += ["", *found] if (found := unresolved(study)) else []
+    lines += ["", *found] if (found := [*unresolved(study), *hurried(study)]) else []
     if failing := known_to_fail(study):
         lines += ["", "Known to fail (docs/limits.md):", *failing]
     if slips := [*likely_slips(study), *costly(cost)]:

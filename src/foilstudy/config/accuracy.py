@@ -112,7 +112,7 @@ ACCURACIES: Mapping[str, Accuracy] = {
             name="fine",
             words="to see what `standard` leaves out",
             energy_error_percent=4.0,
-            ramp_slowness=40.0,
+            ramp_slowness=160.0,
             stiffness_error_percent=1.0,
             reduction_tolerance=1e-4,
         ),

@@ -10,7 +10,7 @@ from foilstudy.base.numerals import times
 
 from .accuracy import ACCURACIES, SETTLED_BY
 from .model import Cell, StudyConfig
-from .slips import known_to_fail, unresolved
+from .slips import hurried, known_to_fail, unresolved
 
 __all__ = ["accuracy_words", "choices"]
 
@@ -31,7 +31,8 @@ def accuracy_words(content: Mapping[str, Any]) -> str:
 def choices(study: StudyConfig) -> list[str]:
     """A line for the tier, and one for each thickness, or for several that are treated alike.
 
-    What the mesh does not resolve, and what is known to fail, is said at the end.
+    What the mesh does not resolve or the ramp hurries, and what is known to fail, is said at the
+    end.
     """
     lines = [f"Accuracy {accuracy_words(study.model_dump())}"]
     shortest = {cell.thickness_um: cell for cell in reversed(study.cells())}
@@ -39,7 +40,7 @@ def choices(study: StudyConfig) -> list[str]:
     for words, alike in groupby(chosen, lambda pair: pair[0]):
         thicknesses = [thickness for _, thickness in alike]
         lines.append(f"  {_range(thicknesses)} um: {words}")
-    lines += (f"  {sentence}" for sentence in unresolved(study))
+    lines += (f"  {sentence}" for sentence in (*unresolved(study), *hurried(study)))
     return [*lines, *(f"  known to fail: {sentence}" for sentence in known_to_fail(study))]
 
 

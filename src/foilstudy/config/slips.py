@@ -14,10 +14,11 @@ from foilstudy.model.mesh_size import SLENDERNESS_MAX
 
 from .accuracy import AUTO
 from .choices import cautions_of
+from .haste import RAMPED, haste
 from .model import StudyConfig
 from .sections import RAMP_STEPS_MIN
 
-__all__ = ["first_buckling", "known_to_fail", "likely_slips", "unresolved"]
+__all__ = ["first_buckling", "hurried", "known_to_fail", "likely_slips", "unresolved"]
 
 THICKNESS_MIN_UM = 1.0
 """Thinner foils are not on sale."""
@@ -77,6 +78,16 @@ def unresolved(study: StudyConfig) -> list[str]:
     wide = {t: w for t, w in widths.items() if w > SLENDERNESS_MAX * (1 + 1e-6)}
     early = {t: w for t, w in widths.items() if t not in wide and w > RING_SLENDERNESS_MAX}
     return [*_of_folds(study, wide), *_of_first_buckling(study, early)]
+
+
+def hurried(study: StudyConfig) -> list[str]:
+    """A sentence about foils that cannot follow the ramp; none if they can, or there is none."""
+    if study.method.path not in RAMPED:
+        return []
+    steps = {t: study.relaxation_of(t).ramp_steps for t in study.thicknesses_um}
+    said = haste(steps, study.sheet.diameter_mm / 2)
+    cure = "Where an axial stiffness counts, leave relaxation.ramp_steps and ramp_slowness out."
+    return [f"{said} {cure}"] if said else []
 
 
 def _of_folds(study: StudyConfig, wide: Mapping[float, float]) -> Iterator[str]:

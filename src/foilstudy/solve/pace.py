@@ -6,10 +6,10 @@ thickness, so that both go with R/t.
 
 from __future__ import annotations
 
-SLOWNESS = 10.0
+SLOWNESS = 40.0
 """Steps of the ramp for each unit of R/t; in fewer, foil lags behind the ring (docs/method.md)."""
 REST_STEPS_MIN = 14_000
-_REST = REST_STEPS_MIN // 2000
+_REST = 7
 """Steps that may follow each one of the ramp. Thin foil that still snaps after 14 000 of them comes
 to rest sooner by more steps than by tangents (docs/tradeoff.md)."""
 
@@ -22,3 +22,8 @@ def ramp_steps(slenderness: float, slowness: float = SLOWNESS) -> int:
 def rest_steps(ramp: int) -> int:
     """Most steps after a ramp of so many."""
     return max(REST_STEPS_MIN, _REST * ramp)
+
+
+RAMP_STEPS = ramp_steps(200.0)
+REST_STEPS = rest_steps(RAMP_STEPS)
+"""Of 500 um in the published case."""

@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 
 from foilstudy.base.numerals import number, plural
+from foilstudy.config.haste import RAMPED, haste
 from foilstudy.config.sections import Relaxation
 from foilstudy.present.report.spread import Spread
 from foilstudy.present.statistics.cells import realised
@@ -77,6 +78,15 @@ def ramp_steps(config: Mapping, thickness_um: float) -> float:
         return np.nan
     relaxation = Relaxation.model_validate(config["relaxation"])
     return relaxation.resolved(1e3 * config["sheet"]["diameter_mm"] / 2 / thickness_um).ramp_steps
+
+
+def haste_findings(cube: xr.Dataset, config: Mapping) -> list[str]:
+    """A sentence about foils that the ramp hurries; none if it hurries none, or is not known."""
+    if config.get("method", {}).get("path", RAMPED[0]) not in RAMPED or "sheet" not in config:
+        return []
+    steps = {t: ramp_steps(config, t) for t in map(float, cube["thickness"].values)}
+    said = haste(steps, config["sheet"]["diameter_mm"] / 2, "µm")
+    return [said] if said else []
 
 
 def assess_equilibrium(cube: xr.Dataset, config: Mapping) -> Equilibrium:

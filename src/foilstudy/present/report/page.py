@@ -168,6 +168,7 @@ def _content(files: StudyFiles, folder: Path) -> dict:
         "sure_words": [
             *true_state.true_findings(cube),
             *grid.sureness(summary),
+            *equilibrium.haste_findings(cube, config),
             *grid.wish_findings(summary, config.get("sweep", {}).get("realisations_max")),
             *_other_physics(cube),
         ],

@@ -13,6 +13,7 @@ import numpy as np
 
 from foilstudy.base.costs import Cost, measured
 from foilstudy.solve.equilibrium.settle import SettleOptions, SettleResult, settle
+from foilstudy.solve.pace import RAMP_STEPS
 from foilstudy.solve.paths import Arrival
 from foilstudy.solve.problem import Problem
 from foilstudy.solve.relaxation.loop import Ramp, RelaxationResult, StoppingRule, relax
@@ -35,7 +36,7 @@ class RelaxationPath:
     """
 
     kind = "relaxation"
-    ramp_steps: int = 2000
+    ramp_steps: int = RAMP_STEPS
     scheme: Scheme = field(default_factory=Scheme)
     settling: SettleOptions = field(default_factory=SettleOptions)
     check_interval: int = 20

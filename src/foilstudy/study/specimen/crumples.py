@@ -14,14 +14,13 @@ from foilstudy.model.specimen import Clamps, Seam, Specimen, Unevenness
 from foilstudy.pipeline.crumple import crumple
 from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.method import Mesh, Method
-from foilstudy.solve.paths.relaxation import RelaxationPath
 from foilstudy.solve.paths.ring_alone import RingAlonePath
 from foilstudy.study.published import GAP_HEIGHT, foil
 from foilstudy.study.specimen.plan import HEIGHT_MM, SIZE_MM, THICKNESS_UM, Scene, Shared
 from foilstudy.study.specimen.release import joined
 
 _MESH = Mesh(SIZE_MM * 1e-3)
-_PATH = RelaxationPath(ramp_steps=2000)
+_METHOD = Method.following(foil(THICKNESS_UM, HEIGHT_MM), slowness=10.0)
 """On 5 mm seeds scatter as much in slower ramps (docs/method.md, section 5)."""
 _HEIGHT_SHARE = {"half": 1 / 2, "third": 1 / 3}
 
@@ -45,7 +44,7 @@ def scene(case: Scene) -> dict:
     """Crumple a specimen."""
     sheet = foil(THICKNESS_UM, HEIGHT_MM)
     sheet = replace(sheet, specimen=specimen_of(case.scene, case.seed))
-    return _measured(crumple(sheet, _MESH, Imperfection(seed=case.seed), Method(_PATH)))
+    return _measured(crumple(sheet, _MESH, Imperfection(seed=case.seed), _METHOD))
 
 
 def shared(case: Shared) -> dict:
@@ -53,9 +52,12 @@ def shared(case: Shared) -> dict:
 
     The rest of the foil, straight, is then joined to the band, without a clamp in between.
     """
-    path = RingAlonePath(_PATH.ramp_steps) if case.share == "ring_alone" else _PATH
+    method = _METHOD
+    if case.share == "ring_alone":
+        path = method.path
+        method = replace(method, path=RingAlonePath(path.ramp_steps, settling=path.settling))
     whole = whole_foil(case)
-    crumpled = crumple(shortened(whole, case), _MESH, Imperfection(seed=case.seed), Method(path))
+    crumpled = crumple(shortened(whole, case), _MESH, Imperfection(seed=case.seed), method)
     result = _measured(crumpled)
     if case.share not in _HEIGHT_SHARE or crumpled.status not in USABLE:
         return result
