@@ -241,6 +241,22 @@ def test_other_code_of_a_measurement_makes_its_records_again(folder, monkeypatch
     assert set(stale(folder).values()) == {"was made by other code"}
 
 
+def test_other_words_make_tables_and_figures_again_and_no_record(folder, monkeypatch):
+    present(TINY, folder)
+    monkeypatch.setitem(TINY.shown_by, "thin", "of 50 um")
+    assert stale(folder).keys() == SHOWN
+    assert set(stale(folder).values()) == {"was made for another task (without thin)"}
+    present(TINY, folder)
+    assert stale(folder) == {}
+
+
+@pytest.mark.parametrize("name", ["real", "truth"])
+def test_words_of_a_model_are_among_what_its_tables_show(name):
+    study = STUDIES[name]
+    steps = {trial.step for trial in study.part("trials").cases}
+    assert study.shown_by.keys() == steps and all(words for words, _ in study.shown_by.values())
+
+
 def test_tables_without_records_are_no_result_of_ones_own(folder):
     present(TINY, folder)
     shutil.rmtree(folder / "shapes")

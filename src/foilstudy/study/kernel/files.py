@@ -170,7 +170,7 @@ def _task(study: Study, part: str, case: str) -> str:
 
 
 def _presented_origin(study: Study, records: Records) -> Origin:
-    return Origin(code=study.presenting_code, sources=_digests(records))
+    return Origin(json.dumps(dict(study.shown_by)), study.presenting_code, _digests(records))
 
 
 def _digests(records: Records) -> tuple[str, ...]:

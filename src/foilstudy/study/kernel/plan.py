@@ -222,6 +222,9 @@ class Study:
         fails with them, after everything is written.
     folder : str
         In ``results``; empty for that of the name.
+    shown_by : mapping
+        Plain data beside the records that tables and figures read, such as words for people: they
+        are made again when it changes, and records are not.
     """
 
     name: str
@@ -232,6 +235,7 @@ class Study:
     findings: Callable[[Mapping], Any] = lambda records: records
     problems: Callable[[Any], Sequence[str]] = lambda findings: ()
     folder: str = ""
+    shown_by: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self):
         object.__setattr__(self, "folder", self.folder or self.name)

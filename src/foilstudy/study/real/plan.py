@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from foilstudy.study.kernel.plan import Lazy, Part, Study
 from foilstudy.study.real.settings import trials
+from foilstudy.study.real.words import words
 
 _HERE = "foilstudy.study.real"
 NAME = "real"
@@ -20,4 +21,5 @@ STUDY = Study(
         "laws.md": Lazy(f"{_HERE}.tables:page"),
     },
     figures={"explanation": Lazy(f"{_HERE}.figures:chart")},
+    shown_by=words(NAME),
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from foilstudy.study.kernel.plan import Lazy, Part, Study
 from foilstudy.study.real.settings import trials
+from foilstudy.study.real.words import words
 
 _HERE = "foilstudy.study"
 NAME = "truth"
@@ -22,5 +23,6 @@ STUDY = Study(
         "influences.md": Lazy(f"{_HERE}.truth.influences:page"),
     },
     figures={"influences": Lazy(f"{_HERE}.truth.figures:chart")},
+    shown_by=words(NAME),
 )
 """Its own trials, ten seeds of each."""
