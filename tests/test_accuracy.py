@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,7 @@ from foilstudy.config import ConfigError, StudyConfig, load_config, load_merged
 from foilstudy.config.accuracy import ACCURACIES, STANDARD, completed
 from foilstudy.config.chosen import accuracy_words, choices
 from foilstudy.config.foils import patch_of
-from foilstudy.config.slips import hurried
+from foilstudy.config.slips import hurried, likely_slips
 from foilstudy.measure.stiffness import limit_by_need
 from foilstudy.model.mesh_size import expected_energy_error
 from foilstudy.study.sweep.expected import expected
@@ -100,9 +101,10 @@ def test_steps_of_the_ramp_win_over_its_slowness():
 @pytest.mark.parametrize(
     ("thickness_um", "given", "most"),
     [
-        (50, {}, 560_000),
-        (500, {}, 56_000),
-        (1000, {"ramp_slowness": 10}, 14_000),  # fewer would save nothing
+        (50, {}, 140_000),
+        (500, {}, 14_000),
+        (1000, {}, 14_000),  # fewer would save nothing
+        (50, {"ramp_slowness": 400}, 140_000),
         (50, {"ramp_slowness": 4}, 56_000),
         (50, {"ramp_steps": 2000}, 14_000),  # as in configurations of before
         (50, {"relaxation_steps_max": 300}, 300),
@@ -202,7 +204,7 @@ def test_choices_say_for_each_thickness_what_it_gets_and_why():
     assert thin.startswith("  130 um: elements of 2.6 mm (25 % energy error), 3077 steps of ramp")
     assert thick.startswith("  500 um: elements of 5.1 mm (25 % energy error), 800 steps of ramp")
     assert thick.endswith("shape refined to 10 %, at most twice, reduction to 0.01")
-    assert "The ramp hurries foil of 130, 500 um: 4.0 steps" in told
+    assert "The ramp hurries foil of 130, 500 um: 4 steps" in told
     _, both, *told = choices(study(mesh={"element_size_mm": 5}, relaxation={"ramp_steps": 2000}))
     assert len(told) == 3  # of folds not resolved, of first buckles that come early, of the ramp
     assert both.startswith("  130 to 500 um: elements of 5 mm (as given), 2000 steps of ramp")
@@ -219,6 +221,28 @@ def test_a_ramp_that_hurries_a_foil_is_said_where_there_is_one():
     installation = {"moves": [{"shorten_percent": 125}]}
     assert hurried(study(method={"path": "installation"}, installation=installation, **steps))
     assert not hurried(study(method={"path": "minimisation"}, **steps))
+
+
+@pytest.mark.parametrize("thickness_um", [322, 130])
+def test_no_rounding_makes_the_standard_ramp_a_hurried_one(thickness_um):
+    """Of 13 mm and 322 um it has 807 steps, which are 39.98 for each unit of R/t."""
+    sheet = {"diameter_mm": 13, "gap_height_mm": 13}
+    sweep = {"thickness_um": [thickness_um], "reference_height_mm": [15], "realisations": 1}
+    assert not hurried(study(sheet=sheet, sweep=sweep))
+
+
+@pytest.mark.parametrize("given", [{"accuracy": "quick"}, {"relaxation": {"ramp_steps": 900}}])
+def test_what_is_said_of_a_hurried_ramp_cures_it(given):
+    (sentence,) = hurried(study(**given))
+    (slowness,) = re.findall(r"set relaxation.ramp_slowness: (\d+)", sentence)
+    assert not hurried(study(**given | {"relaxation": {"ramp_slowness": int(slowness)}}))
+    yielding = {"law": "plastic", "name": "FEP"}
+    (steps,) = (
+        re.findall(r"set relaxation.ramp_steps: (\d+)", slip)
+        for slip in likely_slips(study(material=yielding, relaxation={"ramp_steps": 900}))
+        if "yields by the hurry" in slip
+    )
+    assert not hurried(study(material=yielding, relaxation={"ramp_steps": int(steps[0])}))
 
 
 def test_a_size_that_the_tolerance_does_not_decide_says_what_does():

@@ -127,7 +127,7 @@ def test_check_of_the_default_study_says_what_will_be_computed(capsys):
     assert f"{140 * 30} to {140 * 44}" in text and f"{4 * 140 * 30} to {4 * 140 * 44}" in text
     assert "3.85, 15.4, 53.8 %" in text
     assert "18 realisations make 36 jobs (crumple, response for each)" in text
-    assert "4000 to 8000 steps of ramp, at most 28000 to 56000 after it" in text
+    assert "4000 to 8000 steps of ramp, at most 14000 after it" in text
     for thickness in ("500 um", "700 um", "1000 um"):
         assert thickness in text
 

@@ -160,6 +160,15 @@ def test_doubts_stand_first_and_the_amplitude_once_the_cube_has_it(cube, tmp_pat
     assert "0.0010 mm" in text and "not computed" not in text
 
 
+@pytest.mark.parametrize("steps", [2000, 80_000])
+def test_a_hurried_ramp_is_among_the_doubts(cube, tmp_path, steps):
+    config = cube.attrs["config"].replace("ramp_steps: 2000", f"ramp_steps: {steps}")
+    write_datasheet(cube.assign_attrs(config=config), tmp_path / "sheet.html", 500, 170)
+    text = text_of((tmp_path / "sheet.html").read_text("utf-8"))
+    # of the other thicknesses it says nothing
+    assert ("The ramp hurries foil of 500 µm: 10 steps" in text) == (steps == 2000)
+
+
 def test_the_command_writes_one_and_refuses_what_the_cube_lacks(tmp_path, capsys):
     words = ["datasheet", str(ROOT / "results/thesis"), "--thickness", "500"]
     main([*words, "--height", "170", "--output", str(tmp_path / "link.html")])

@@ -8,7 +8,7 @@ import numpy as np
 
 from foilstudy.base.reference import published
 from foilstudy.present.configuration import configuration
-from foilstudy.present.report.equilibrium import ramp_steps
+from foilstudy.present.ramp import ramp_steps
 from page_blocks.study import DIRECTIONS, Study, displacement, rows
 
 

@@ -434,7 +434,8 @@ class Relaxation(Section):
     relaxation_steps_max: int | None = unit_field(
         "steps",
         "Most explicit steps after the ramp; what still moves then is minimised with its tangent, "
-        "which is slower. Left out: seven for each step of the ramp, at least 14000.",
+        "which is slower. Left out: seven for each step of the ramp, at most 70 for each unit of "
+        "radius over thickness, at least 14000.",
         None,
         ge=0,
         le=REST_STEPS_MAX,
@@ -481,7 +482,7 @@ class Relaxation(Section):
             steps = pace.ramp_steps(slenderness, self.ramp_slowness)
             steps = min(max(RAMP_STEPS_MIN, steps), RAMP_STEPS_MAX)
         if most is None:
-            most = min(pace.rest_steps(steps), REST_STEPS_MAX)
+            most = min(pace.rest_steps(steps, slenderness), REST_STEPS_MAX)
         numbers = {"ramp_steps": steps, "ramp_slowness": None, "relaxation_steps_max": most}
         return self.model_copy(update=numbers)
 

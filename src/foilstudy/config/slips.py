@@ -11,6 +11,7 @@ from itertools import chain
 
 from foilstudy.base.numerals import number
 from foilstudy.model.mesh_size import SLENDERNESS_MAX
+from foilstudy.solve.pace import ramp_steps
 
 from .accuracy import AUTO
 from .choices import cautions_of
@@ -86,8 +87,7 @@ def hurried(study: StudyConfig) -> list[str]:
         return []
     steps = {t: study.relaxation_of(t).ramp_steps for t in study.thicknesses_um}
     said = haste(steps, study.sheet.diameter_mm / 2)
-    cure = "Where an axial stiffness counts, leave relaxation.ramp_steps and ramp_slowness out."
-    return [f"{said} {cure}"] if said else []
+    return [said] if said else []
 
 
 def _of_folds(study: StudyConfig, wide: Mapping[float, float]) -> Iterator[str]:
@@ -230,10 +230,12 @@ def _of_yielding(study: StudyConfig) -> Iterator[str]:
     if material.law != "elastic":
         fastest = min(study.relaxation_of(each).ramp_steps for each in study.thicknesses_um)
         if fastest < PLASTIC_RAMP_MIN:
+            slenderness = 1e3 * study.sheet.diameter_mm / 2 / study.thicknesses_um[0]
+            enough = max(4 * PLASTIC_RAMP_MIN, ramp_steps(slenderness))
             yield (
                 f"material.law is {material.law}, and the ramp takes {fastest} steps: in fewer "
                 f"than {PLASTIC_RAMP_MIN} the foil yields by the hurry; set relaxation.ramp_steps: "
-                f"{4 * PLASTIC_RAMP_MIN}."
+                f"{enough}."
             )
         if material.hardening_mpa == 0:
             yield (

@@ -101,8 +101,9 @@ class Method:
 
         Left out, `slowness` is that of a study of standard accuracy; see `foilstudy.solve.pace`.
         """
-        steps = ramp_steps(foil.diameter / 2 / foil.thickness, slowness)
-        settling = SettleOptions(relaxation_steps_max=rest_steps(steps))
+        slenderness = foil.diameter / 2 / foil.thickness
+        steps = ramp_steps(slenderness, slowness)
+        settling = SettleOptions(relaxation_steps_max=rest_steps(steps, slenderness))
         return cls(RelaxationPath(steps, settling=settling))
 
     def __repr__(self) -> str:

@@ -18,7 +18,7 @@ from foilstudy.pipeline.crumpled import Crumpled, Recipe
 from foilstudy.pipeline.evidence import seen_in
 from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.solve.equilibrium.settle import SettleOptions
-from foilstudy.solve.pace import SLOWNESS
+from foilstudy.solve.pace import ramp_steps
 from foilstudy.solve.paths.relaxation import RelaxationPath
 from foilstudy.solve.paths.ring_alone import RingAlonePath
 from foilstudy.solve.relaxation.mass.spectral import SpectralMassScaling
@@ -113,17 +113,18 @@ def safer(method: Method, foil: Foil, attempt: int) -> Method:
 
     Every further one has the spectral mass, with a safety that grows by 1.5, averaged adaptive
     damping, and a ramp that is spread over the height and takes four times the steps of the one
-    before, at least those of standard accuracy; stops of the ring are kept.
+    before, if there was one, at least those of standard accuracy; stops of the ring are kept.
     """
     if attempt == 1:
         return method
-    path = method.path
-    if not isinstance(path, RelaxationPath):
+    path, steps = method.path, ramp_steps(foil.diameter / 2 / foil.thickness)
+    if isinstance(path, RelaxationPath):
+        steps = max(steps, SLOWER * path.ramp_steps)
+    else:
         path = RelaxationPath(settling=path.settling)
-    elif isinstance(path, RingAlonePath):
+    if isinstance(path, RingAlonePath):
         path = RelaxationPath(path.ramp_steps, path.scheme, path.settling, path.check_interval)
-    standard = math.ceil(SLOWNESS * foil.diameter / 2 / foil.thickness)
-    steps = max(standard, SLOWER * path.ramp_steps) * SLOWER ** (attempt - 2)
+    steps *= SLOWER ** (attempt - 2)
     most = max(path.settling.relaxation_steps_max, SettleOptions().relaxation_steps_max)
     settling = replace(path.settling, relaxation_steps_max=most * 2 ** (attempt - 1))
     scheme = Scheme(mass=SpectralMassScaling(safety=SpectralMassScaling().safety * attempt))

@@ -9,9 +9,10 @@ from __future__ import annotations
 SLOWNESS = 40.0
 """Steps of the ramp for each unit of R/t; in fewer, foil lags behind the ring (docs/method.md)."""
 REST_STEPS_MIN = 14_000
-_REST = 7
-"""Steps that may follow each one of the ramp. Thin foil that still snaps after 14 000 of them comes
-to rest sooner by more steps than by tangents (docs/tradeoff.md)."""
+_REST_OF_RAMP, _REST_SLOWNESS = 7, 70.0
+"""Steps that may follow each one of the ramp, and at most for each unit of R/t. Thin foil that
+still snaps after 14 000 of them comes to rest sooner by more steps than by tangents
+(docs/tradeoff.md); a slow ramp leaves no more to come to rest than a fast one."""
 
 
 def ramp_steps(slenderness: float, slowness: float = SLOWNESS) -> int:
@@ -19,11 +20,10 @@ def ramp_steps(slenderness: float, slowness: float = SLOWNESS) -> int:
     return round(slowness * slenderness)
 
 
-def rest_steps(ramp: int) -> int:
-    """Most steps after a ramp of so many."""
-    return max(REST_STEPS_MIN, _REST * ramp)
+def rest_steps(ramp: int, slenderness: float) -> int:
+    """Most steps after a ramp of so many, of a foil of one R/t."""
+    return max(REST_STEPS_MIN, min(_REST_OF_RAMP * ramp, round(_REST_SLOWNESS * slenderness)))
 
 
 RAMP_STEPS = ramp_steps(200.0)
-REST_STEPS = rest_steps(RAMP_STEPS)
 """Of 500 um in the published case."""

@@ -19,6 +19,7 @@ from foilstudy.present.comparison import studied_case
 from foilstudy.present.configuration import configuration
 from foilstudy.present.datasheet.facts import Direction, LinkFacts, Value, link_facts
 from foilstudy.present.datasheet.picture import drawn_inline
+from foilstudy.present.ramp import haste_findings
 
 __all__ = ["write_datasheet"]
 
@@ -99,7 +100,7 @@ def _content(cube: xr.Dataset, facts: LinkFacts) -> dict:
         ),
         "scope": _scope(cube, facts),
         "counted": _counted(facts),
-        "doubts": list(_doubts(facts)),
+        "doubts": [*_doubts(facts), *haste_findings(cube.sel(thickness=[facts.thickness_um]))],
         "static": list(_static_rows(facts)),
         "static_words": _static_words(facts),
         "first_words": _first_words(facts),

@@ -7,8 +7,7 @@ import numpy as np
 import xarray as xr
 
 from foilstudy.base.numerals import number, plural
-from foilstudy.config.haste import RAMPED, haste
-from foilstudy.config.sections import Relaxation
+from foilstudy.present.ramp import ramp_steps
 from foilstudy.present.report.spread import Spread
 from foilstudy.present.statistics.cells import realised
 
@@ -70,23 +69,6 @@ class Equilibrium:
     def worst_residual(self) -> float:
         """Largest residual of all."""
         return max((row.worst_residual for row in self.thicknesses), default=np.nan)
-
-
-def ramp_steps(config: Mapping, thickness_um: float) -> float:
-    """Steps of the ramp of one thickness; NaN where the configuration does not say."""
-    if "relaxation" not in config or "sheet" not in config:
-        return np.nan
-    relaxation = Relaxation.model_validate(config["relaxation"])
-    return relaxation.resolved(1e3 * config["sheet"]["diameter_mm"] / 2 / thickness_um).ramp_steps
-
-
-def haste_findings(cube: xr.Dataset, config: Mapping) -> list[str]:
-    """A sentence about foils that the ramp hurries; none if it hurries none, or is not known."""
-    if config.get("method", {}).get("path", RAMPED[0]) not in RAMPED or "sheet" not in config:
-        return []
-    steps = {t: ramp_steps(config, t) for t in map(float, cube["thickness"].values)}
-    said = haste(steps, config["sheet"]["diameter_mm"] / 2, "µm")
-    return [said] if said else []
 
 
 def assess_equilibrium(cube: xr.Dataset, config: Mapping) -> Equilibrium:

@@ -21,6 +21,7 @@ from foilstudy.present.comparison import comparable, comparison_sentence, studie
 from foilstudy.present.configuration import configuration, isolation_options, study_of
 from foilstudy.present.figures import FIGURES
 from foilstudy.present.files import StudyFiles
+from foilstudy.present.ramp import haste_findings
 from foilstudy.present.report import (
     beside,
     distrust,
@@ -168,7 +169,7 @@ def _content(files: StudyFiles, folder: Path) -> dict:
         "sure_words": [
             *true_state.true_findings(cube),
             *grid.sureness(summary),
-            *equilibrium.haste_findings(cube, config),
+            *haste_findings(cube),
             *grid.wish_findings(summary, config.get("sweep", {}).get("realisations_max")),
             *_other_physics(cube),
         ],

@@ -18,7 +18,7 @@ from foilstudy.linalg import SymmetricBlocks
 from foilstudy.model.patch import RING_ROWS
 from foilstudy.solve.choices import SEARCHES
 from foilstudy.solve.equilibrium.newton import NewtonOptions, NewtonResult
-from foilstudy.solve.pace import REST_STEPS
+from foilstudy.solve.pace import REST_STEPS_MIN
 from foilstudy.solve.problem import Problem
 from foilstudy.solve.relaxation import Motion, Ramp, StoppingRule, relax
 from foilstudy.solve.residual import relative_residual
@@ -113,7 +113,7 @@ class SettleOptions:
 
     residual_tolerance: float = 1e-8
     switch_residual: float = 1e-3
-    relaxation_steps_max: int = REST_STEPS
+    relaxation_steps_max: int = REST_STEPS_MIN
     hessians_per_round: int = 3
     hessians_last: int = 60
     rounds_max: int = 10

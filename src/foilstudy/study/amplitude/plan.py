@@ -8,10 +8,10 @@ from foilstudy.study.kernel.plan import Lazy, Part, Study, results
 from foilstudy.study.published import HEIGHT_MM, THICKNESSES_UM
 
 SIZE_MM, COARSE_MM = 5.0, 10.0
-RAMP_SLOWNESS = 10.0
-"""A quarter of that of a study: any shape of these coarse meshes will do."""
 """Of the elements of sweeps; of those of time integrations, each of which takes thousands of steps
 a period."""
+RAMP_SLOWNESS = 10.0
+"""A quarter of that of a study: any shape of these coarse meshes will do."""
 SEED = 0
 MOTIONS = {500: ("axial", "radial_x", "tilt_x", "twist"), 50: ("axial", "radial_x")}
 """By thickness; thin foil snaps often, and each snap takes as long as a sweep without."""
@@ -28,7 +28,7 @@ PERIODS = 4.2
 
 @dataclass(frozen=True)
 class Shape:
-    """A crumple of the default method and imperfection.
+    """A crumple of the default method, in a ramp of `RAMP_SLOWNESS`, and the default imperfection.
 
     Attributes
     ----------

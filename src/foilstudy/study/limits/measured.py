@@ -21,7 +21,7 @@ class Measured:
     thickness_um, height_mm, size_mm, seed
         See `foilstudy.study.limits.plan.Trial`.
     ramp_steps : int or None
-        None for those of standard accuracy.
+        None for those of the map.
     """
 
     ways: str

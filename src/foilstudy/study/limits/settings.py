@@ -79,7 +79,7 @@ class MeasuredFoil(Section):
     size_mm: float
     seeds: int = pydantic.Field(ge=1)
     ramp_steps: tuple[int, ...] = pydantic.Field((), **_List)
-    """Beside the default ramp."""
+    """Beside that of the map."""
 
 
 class Measures(Section):
