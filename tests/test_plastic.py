@@ -32,6 +32,7 @@ from foilstudy.pipeline.crumpled import Crumpled
 from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.pipeline.structures import stress_free_structure
 from foilstudy.solve.equilibrium.settle import SettleOptions
+from foilstudy.solve.paths.minimisation import MinimisationPath
 from foilstudy.solve.paths.relaxation import RelaxationPath
 from foilstudy.study.sweep.crumple import crumple_job
 
@@ -398,6 +399,13 @@ def test_a_plastic_crumple_rests_at_its_own_state(yielded):
     assert von_mises(stress - back).max() <= 12e6 * (1 + 1e-9)
     again = yielded.settled()
     assert (again.arrival.steps, again.arrival.hessians) == (0, 0)
+
+
+def test_a_plastic_crumple_that_settles_without_motion_keeps_its_state(yielded):
+    """A path of equilibria crumples no such foil, but it settles one."""
+    again = yielded.settled(Method(MinimisationPath()))
+    assert again.status == "converged"
+    assert np.array_equal(again.prestressed_stiffness(), yielded.prestressed_stiffness())
 
 
 @pytest.mark.parametrize("rounds", [1, 10])

@@ -16,6 +16,7 @@ from foilstudy.base.errors import Refusal
 from foilstudy.model.patch import RING_ROWS
 from foilstudy.solve.equilibrium.settle import SettleOptions, settle
 from foilstudy.solve.paths import Arrival
+from foilstudy.solve.paths.relaxation import arrived
 from foilstudy.solve.problem import Problem
 from foilstudy.solve.relaxation.loop import History
 from foilstudy.solve.relaxation.scheme import Scheme
@@ -82,11 +83,7 @@ class StaticPath:
         options = replace(self.settling, relaxation_steps_max=0)
         with measured() as cost:
             settled = settle(problem, Scheme().start(problem), points, options)
-        return Arrival(
-            settled.status, settled.message, settled.points, settled.residual,
-            settled.negative_eigenvalues, 0, settled.newton_steps, settled.hessians, None,
-            {"settling": cost},
-        )  # fmt: skip
+        return arrived(problem, settled, {"settling": cost})
 
 
 def static_history(
