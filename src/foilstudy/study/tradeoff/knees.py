@@ -14,8 +14,9 @@ def beaten(rows: Iterable[Mapping]) -> list[str]:
     """A sentence for every setting that beats the default, from rows of ``tradeoff.csv``.
 
     It does where it was measured at all, in every ladder and quantity: in less than four fifths of
-    the time, with an error that is not above that of the default by more than its interval, and
-    with no more crumples that came to no rest. Defaults that no study has are not held.
+    the time, with an error that is not above that of the default by more than the narrower of their
+    intervals, as what is not known is not accurate, and with no more crumples that came to no
+    rest. Defaults that no study has are not held.
     """
     rows = [row for row in rows if row["held"]]
     defaults = {_place(row): row for row in rows if row["default"]}
@@ -39,5 +40,6 @@ def _beats(row: Mapping, default: Mapping) -> bool:
     numbers = (row["ratio"], row["error"], row["interval"])
     if any(number is None or not math.isfinite(number) for number in numbers):
         return False
-    as_accurate = abs(row["error"]) - row["interval"] <= abs(default["error"])
+    doubt = min(row["interval"], default["interval"])
+    as_accurate = abs(row["error"]) - doubt <= abs(default["error"])
     return row["ratio"] < CHEAPER and as_accurate and row["failed"] <= default["failed"]
