@@ -11,6 +11,7 @@ from synthetic import COARSE, DIRECTIONS, LAW, LIMIT_SHIFT, make_cube, ten_perce
 
 from foilstudy import open_cube
 from foilstudy.base.errors import Refusal
+from foilstudy.base.reference import published
 from foilstudy.config import load_config
 from foilstudy.present.statistics.tables import write_tables
 
@@ -50,6 +51,10 @@ def results(tmp_path_factory):
     for name in ("static_stiffness", "static_stiffness_converged", "static_stiffness_mesh_error"):
         thin[name] = 2 * STIFFER * thin[name]
     make_study(folder, "resolved_thin", thin)
+    full = make_cube((250.0, 500.0), seeds=2, cv=ten_percent)
+    plain = full["static_stiffness_converged"]
+    given = {"true_stiffness": plain / 2, "stiffness_contacts_stuck": 2 * plain}
+    make_study(folder, "real_resolved", full.assign(given))
     for table in ("tradeoff/tradeoff.md", "real/laws.md", "truth/influences.md"):
         (folder / table).parent.mkdir()
         (folder / table).write_text("| a | table |\n", "utf-8")
@@ -144,6 +149,29 @@ def test_thin_foil_stands_beside_the_law_that_leaves_it_out(results):
     assert {row[1] for row in cells(beside)} == {"50"}
     ratios = [float(row[5]) for row in cells(beside)]
     assert ratios == pytest.approx(6 * [2.0], rel=0.25)
+
+
+def test_the_whole_model_stands_beside_elastic_foil_and_the_measured_law(results):
+    """Of this foil half the stress-free stiffness as it stands, of the elastic one three times."""
+    levels, laws = block("whole", *studies(results, "real_resolved", "resolved")).split("\n\n")
+    rows = cells(levels)
+    assert len(rows) == 2 * 2 * 4 and all(len(row) == 3 + 5 for row in rows)
+    for k in range(0, len(rows), 4):
+        elastic, plain, stuck, stands = (
+            np.array([float(cell.split()[0]) for cell in row[3:]]) for row in rows[k : k + 4]
+        )
+        assert stuck / plain == pytest.approx(2.0, rel=0.1)
+        assert stands / plain == pytest.approx(0.5, rel=0.1)
+        assert elastic / plain == pytest.approx(STIFFER, rel=0.3)
+        assert "(" in rows[k][3]
+    law = published().power_laws["axial"]["experiment"].law
+    cube = Study(results / "real_resolved").cube
+    at = cube["static_stiffness_converged"].sel(direction="axial", thickness=250).isel(overlength=2)
+    over = at.values / law.stiffness(float(at["overlength"]), 250)
+    assert float(rows[1][5].split()[0]) == pytest.approx(np.exp(np.log(over).mean()), abs=0.01)
+    exponents = cells(laws)
+    assert len(exponents) == 2 * 4 and {row[4] for row in exponents} == {"60 of 60", "20 of 20"}
+    assert float(exponents[3][2].split()[0]) == pytest.approx(LAW["axial"][1], abs=0.1)
 
 
 def test_laws_of_a_whole_study_stand_on_the_mesh_of_the_crumple_and_with_stress(results):

@@ -13,6 +13,7 @@ from page_blocks.realisations import (
 )
 from page_blocks.stiffness import beside, bound, experiment, prestress, simulation, variability
 from page_blocks.study import Study
+from page_blocks.whole import whole
 
 __all__ = ["BLOCKS", "Study"]
 
@@ -21,7 +22,7 @@ BLOCKS = {
     for each in (
         headline, law, differences, dimensionless, summary, trust, beside, simulation, experiment,
         bound, prestress, variability, dynamics, eigenfrequency, shapes, steps, costs, tradeoff,
-        explanation, influences, thin,
+        explanation, influences, thin, whole,
     )
 }  # fmt: skip
 """Functions of studies that yield lines, by the name of their block."""
