@@ -10,7 +10,7 @@ from foilstudy.measure.stiffness import fixed_stiffness
 from foilstudy.measure.stiffness.rings import interface_rigid_modes
 from foilstudy.model.foil import Imperfection
 from foilstudy.pipeline.crumple import crumple, uncrumpled
-from foilstudy.pipeline.method import Mesh
+from foilstudy.pipeline.method import Mesh, Method
 from foilstudy.study.published import HEIGHT, RADIUS, foil
 
 pytest.importorskip(
@@ -47,7 +47,8 @@ def test_both_shells_have_the_same_cylinder_at_the_limit(shells):
 
 
 def test_their_shell_is_too_stiff_on_a_crumple_and_nears_our_limit(shells):
-    shape = crumple(foil(500), Mesh(15e-3), Imperfection(seed=0))
+    method = Method.following(foil(500), shells.RAMP_SLOWNESS)
+    shape = crumple(foil(500), Mesh(15e-3), Imperfection(seed=0), method)
     limit, over = shape.mesh_limit(2).stiffness, []
     for _ in range(2):
         over.append(fixed_stiffness(shells.theirs(shape)) / limit - 1)

@@ -221,7 +221,8 @@ def test_a_spoilt_record_is_repaired_by_the_same_command(finished):
     assert "small: crumple.nc cannot be read as a record" in run.stdout + run.stderr
     # a run begins with what it chose, and why, and with what it costs
     lines = (
-        r"^Accuracy standard, overruled by .*\n  500 um: .*\n  mesh.element_size_mm .*\n  about .*$"
+        r"^Accuracy standard, overruled by .*\n  500 um: .*\n  mesh.element_size_mm .*\n"
+        r"  The ramp hurries .*\n  about .*$"
     )
     told = re.search(lines, run.stderr, re.M)
     assert "elements of 18 mm (as given), 100 steps of ramp" in told[0]

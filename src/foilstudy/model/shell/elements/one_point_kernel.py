@@ -39,7 +39,7 @@ def scales(patch, thickness: float, stabilisation: float) -> tuple[tuple, tuple]
 
 
 @njit(cache=True, fastmath=True, error_model="numpy", forceinline=True)
-def _element_chunk(buf, elements, at, n, scales, g):
+def _element_chunk(buf, row, n, scales, g):
     """Work-conjugate vectors (rows 0 to 14 of g) and energies (15 to 17) of n elements of a row."""
     d1, dd1, bend, grad1, grad2 = scales
     for i in range(n):
@@ -72,38 +72,38 @@ def _element_chunk(buf, elements, at, n, scales, g):
         ny *= rj
         nz *= rj
 
-        c11 = elements[at + 12 * CHUNK + i]
-        c22 = elements[at + 13 * CHUNK + i]
-        c12 = elements[at + 14 * CHUNK + i]
-        c16 = elements[at + 15 * CHUNK + i]
-        c26 = elements[at + 16 * CHUNK + i]
-        c66 = elements[at + 17 * CHUNK + i]
+        c11 = row[12 * CHUNK + i]
+        c22 = row[13 * CHUNK + i]
+        c12 = row[14 * CHUNK + i]
+        c16 = row[15 * CHUNK + i]
+        c26 = row[16 * CHUNK + i]
+        c66 = row[17 * CHUNK + i]
 
-        e1 = 0.5 * (m11 - elements[at + 0 * CHUNK + i])
-        e2 = 0.5 * (m22 - elements[at + 1 * CHUNK + i])
-        e6 = m12 - 0.5 * elements[at + 2 * CHUNK + i]
+        e1 = 0.5 * (m11 - row[0 * CHUNK + i])
+        e2 = 0.5 * (m22 - row[1 * CHUNK + i])
+        e6 = m12 - 0.5 * row[2 * CHUNK + i]
         n1 = c11 * e1 + c12 * e2 + c16 * e6
         n2 = c12 * e1 + c22 * e2 + c26 * e6
         n6 = c16 * e1 + c26 * e2 + c66 * e6
         g[15 * _WIDE + i] = 0.5 * (n1 * e1 + n2 * e2 + n6 * e6)
 
-        k1 = elements[at + 3 * CHUNK + i] - (x11 * nx + y11 * ny + z11 * nz)
-        k2 = elements[at + 4 * CHUNK + i] - (x22 * nx + y22 * ny + z22 * nz)
-        k6 = elements[at + 5 * CHUNK + i] - 2.0 * (x12 * nx + y12 * ny + z12 * nz)
+        k1 = row[3 * CHUNK + i] - (x11 * nx + y11 * ny + z11 * nz)
+        k2 = row[4 * CHUNK + i] - (x22 * nx + y22 * ny + z22 * nz)
+        k6 = row[5 * CHUNK + i] - 2.0 * (x12 * nx + y12 * ny + z12 * nz)
         m1 = bend * (c11 * k1 + c12 * k2 + c16 * k6)
         m2 = bend * (c12 * k1 + c22 * k2 + c26 * k6)
         m6 = 2.0 * bend * (c16 * k1 + c26 * k2 + c66 * k6)
         g[16 * _WIDE + i] = 0.5 * (m1 * k1 + m2 * k2 + 0.5 * m6 * k6)
 
         # first-order variation of the membrane strain, direction 1 then 2
-        f1 = x11 * x1 + y11 * y1 + z11 * z1 - elements[at + 6 * CHUNK + i]
+        f1 = x11 * x1 + y11 * y1 + z11 * z1 - row[6 * CHUNK + i]
         w = x12 * x2 + y12 * y2 + z12 * z2
-        f2 = w - elements[at + 7 * CHUNK + i]
+        f2 = w - row[7 * CHUNK + i]
         v = x12 * x1 + y12 * y1 + z12 * z1
-        f6 = x11 * x2 + y11 * y2 + z11 * z2 + v - elements[at + 8 * CHUNK + i]
-        h1 = v - elements[at + 9 * CHUNK + i]
-        h2 = x22 * x2 + y22 * y2 + z22 * z2 - elements[at + 10 * CHUNK + i]
-        h6 = w + x22 * x1 + y22 * y1 + z22 * z1 - elements[at + 11 * CHUNK + i]
+        f6 = x11 * x2 + y11 * y2 + z11 * z2 + v - row[8 * CHUNK + i]
+        h1 = v - row[9 * CHUNK + i]
+        h2 = x22 * x2 + y22 * y2 + z22 * z2 - row[10 * CHUNK + i]
+        h6 = w + x22 * x1 + y22 * y1 + z22 * z1 - row[11 * CHUNK + i]
         s1 = grad1 * (c11 * f1 + c12 * f2 + c16 * f6)
         s2 = grad1 * (c12 * f1 + c22 * f2 + c26 * f6)
         s6 = grad1 * (c16 * f1 + c26 * f2 + c66 * f6)
@@ -223,8 +223,10 @@ def internal_force(x, n_around, elements, scales_around, scales_along, force):
             for k in range(15):
                 g[k * _WIDE + n + 2] = 0.0
                 g[k * _WIDE + n + 3] = 0.0
+            # a slice, not an offset, or else the overlap checks of the compiler reach too far and
+            # the order of sums depends on where the work arrays happen to lie
             at = (j * n_chunks + chunk) * VALUES * CHUNK
-            _element_chunk(buf, elements, at, n, scales_around, g)
+            _element_chunk(buf, elements[at : at + VALUES * CHUNK], n, scales_around, g)
             _add_energies(g, n, energy)
             for c in range(3):
                 g1 = c * _WIDE
