@@ -6,11 +6,11 @@ from collections.abc import Mapping
 
 from foilstudy.solve.pace import SLOWNESS, ramp_steps
 
-__all__ = ["ENOUGH", "RAMPED", "haste"]
+__all__ = ["RAMPED", "haste"]
 
 RAMPED = ("relaxation", "installation", "ring_alone")
 """Paths of which the ring moves in the steps of a ramp."""
-ENOUGH = 0.95
+_ENOUGH = 0.95
 """Share of the steps of the standard ramp in which no foil is hurried."""
 
 
@@ -30,7 +30,7 @@ def haste(steps: Mapping[float, float], radius_mm: float, unit: str = "um") -> s
     fast = {
         thickness: each / slenderness[thickness]
         for thickness, each in steps.items()
-        if each < ENOUGH * ramp_steps(slenderness[thickness])
+        if each < _ENOUGH * ramp_steps(slenderness[thickness])
     }
     if not fast:
         return None

@@ -425,8 +425,8 @@ class Relaxation(Section):
     ramp_slowness: float | None = unit_field(
         "steps",
         "Those steps for each unit of radius over thickness, as thin foil moves slowly; only where "
-        "`ramp_steps` is left out. In fewer than 40 foil may come out too stiff axially. "
-        + tier_words("relaxation.ramp_slowness"),
+        f"`ramp_steps` is left out. In fewer than {STANDARD.ramp_slowness:g} foil may come out too "
+        "stiff axially. " + tier_words("relaxation.ramp_slowness"),
         None,
         gt=0,
         le=10_000,
