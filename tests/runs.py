@@ -12,7 +12,9 @@ from pathlib import Path
 import yaml
 
 ROOT = Path(__file__).parents[1]
-_NAMES = ("tradeoff.yaml", "limits.yaml", "real.yaml", "truth.yaml", "specimen.yaml")
+_NAMES = (
+    "accuracy.yaml", "limits.yaml", "real.yaml", "specimen.yaml", "tradeoff.yaml", "truth.yaml",
+)  # fmt: skip
 _OF_SIDE_STUDIES = {ROOT / "config" / name for name in _NAMES}
 STUDY_FILES = sorted(set((ROOT / "config").glob("*.yaml")) - _OF_SIDE_STUDIES)
 """Configurations of studies; the others hold settings of side studies."""

@@ -15,7 +15,7 @@ from foilstudy.config import ConfigError, StudyConfig, load_config, load_merged
 from foilstudy.config.accuracy import ACCURACIES, STANDARD, completed
 from foilstudy.config.chosen import accuracy_words, choices
 from foilstudy.config.foils import patch_of
-from foilstudy.config.slips import hurried, likely_slips
+from foilstudy.config.slips import hurried, likely_slips, unresolved
 from foilstudy.measure.stiffness import limit_by_need
 from foilstudy.model.mesh_size import expected_energy_error
 from foilstudy.study.sweep.expected import expected
@@ -199,15 +199,28 @@ def test_keys_that_overrule_the_word_are_named():
 
 
 def test_choices_say_for_each_thickness_what_it_gets_and_why():
-    head, thin, thick, told = choices(study(accuracy="quick"))
+    head, thin, thick, wide, told = choices(study(accuracy="quick"))
     assert head == "Accuracy quick"
     assert thin.startswith("  130 um: elements of 2.6 mm (25 % energy error), 3077 steps of ramp")
     assert thick.startswith("  500 um: elements of 5.1 mm (25 % energy error), 800 steps of ramp")
     assert thick.endswith("shape refined to 10 %, at most twice, reduction to 0.01")
+    assert "Elements of 130, 500 um are 0.72 times sqrt(R t) wide" in wide
     assert "The ramp hurries foil of 130, 500 um: 4 steps" in told
     _, both, *told = choices(study(mesh={"element_size_mm": 5}, relaxation={"ramp_steps": 2000}))
-    assert len(told) == 3  # of folds not resolved, of first buckles that come early, of the ramp
+    assert len(told) == 4  # folds not resolved, first buckles that come early, shapes, the ramp
     assert both.startswith("  130 to 500 um: elements of 5 mm (as given), 2000 steps of ramp")
+
+
+def test_elements_on_which_shapes_are_others_are_said_where_there_are_some():
+    """On the 5 mm of the published study 500 um is at 0.71, and 130 um is not resolved at all."""
+    assert unresolved(study()) == unresolved(study(accuracy="fine")) == []
+    *_, sentence = unresolved(study(mesh={"element_size_mm": 5}))
+    assert sentence.startswith("Elements of 500 um are 0.71 times sqrt(R t) wide.")
+    assert "mesh.energy_error_percent: 10" in sentence
+    # what is advised is fine enough
+    assert unresolved(study(mesh={"energy_error_percent": 10})) == []
+    other = {"element_size_mm": 5, "element": "one_point"}
+    assert not any("other shapes" in each for each in unresolved(study(mesh=other)))
 
 
 def test_a_ramp_that_hurries_a_foil_is_said_where_there_is_one():

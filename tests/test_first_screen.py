@@ -371,6 +371,14 @@ def test_the_first_screen_says_of_a_ramp_that_hurries_the_foil(tmp_path):
         assert ("The ramp hurries" in first) == bool(said) and said in first
 
 
+def test_the_first_screen_says_of_elements_on_which_shapes_are_others(tmp_path):
+    for size, said in ((4.0, "Elements of 500 µm are 0.57 times sqrt(R t) wide"), (3.2, "")):
+        cube = make_cube((500.0,), (135.0, 250.0), 3, case=SyntheticCase(element_size_mm=size))
+        page = written(cube, tmp_path)
+        first = words(page[page.index('id="first"') : page.index("</section>")])
+        assert ("other shapes" in first) == bool(said) and said in first
+
+
 def test_foil_that_no_mesh_resolves_is_left_out_of_the_cure(tmp_path):
     thin = make_cube((1.0, 500.0), (135.0, 250.0), 1, case=COARSE)
     first, *_ = cures(thin, Need(mesh=True, refinements=None))

@@ -26,6 +26,7 @@ from foilstudy.present.report.true_state import true_findings, true_grids
 from foilstudy.present.statistics.cells import energy_left
 from foilstudy.present.statistics.powerlaw import AS_IT_STANDS, PRESTRESSED, powerlaw_table
 from foilstudy.present.statistics.summary import stiffness_summary
+from foilstudy.present.strain import strain_findings
 from foilstudy.solve.paths.relaxation import RelaxationPath
 from foilstudy.study.sweep.crumple import crumple_job
 from foilstudy.study.sweep.cube import gather
@@ -155,6 +156,17 @@ def test_the_page_says_how_many_would_run_away():
     cube["true_ring_negative_eigenvalues"], cube["true_negative_eigenvalues"] = loose, 0 * loose
     (sentence,) = true_findings(cube)
     assert "1 would push a free top ring" in sentence
+
+
+def test_strain_beyond_thin_shells_is_flagged():
+    cube = make_cube()
+    assert strain_findings(cube) == []
+    cube["plastic_strain_max"] = 0 * cube["steps"] + 0.05
+    assert strain_findings(cube) == []
+    cube["plastic_strain_max"][0, 0, 0], cube["plastic_strain_max"][0, 1, 0] = 0.31, 0.12
+    (sentence,) = strain_findings(cube)
+    assert sentence.startswith(f"In 2 of {cube['steps'].size} foils")
+    assert "0.12 to 0.31 at its worst point" in sentence
 
 
 def test_what_is_more_than_elastic_costs_more_and_check_says_what_it_is(tmp_path, capsys):

@@ -32,7 +32,7 @@ and check the files.
 | `resolved_thin.yaml` | the same of 50 um, up to half an hour of a core for a crumple |
 | `tiny.yaml` | coarse and short, to test the workflow; its numbers mean nothing |
 
-`limits.yaml`, `real.yaml`, `tradeoff.yaml` and `truth.yaml` say what side
+`accuracy.yaml`, `limits.yaml`, `real.yaml`, `tradeoff.yaml` and `truth.yaml` say what side
 studies crumple (`snakemake -j2 real`, docs/studies.md), and are no configurations of a study.
 
 ## Minimal example

@@ -18,6 +18,7 @@ from .choices import cautions_of
 from .haste import RAMPED, haste
 from .model import StudyConfig
 from .sections import RAMP_STEPS_MIN
+from .width import wide
 
 __all__ = ["first_buckling", "hurried", "known_to_fail", "likely_slips", "unresolved"]
 
@@ -70,15 +71,20 @@ def known_to_fail(study: StudyConfig) -> list[str]:
 
 
 def unresolved(study: StudyConfig) -> list[str]:
-    """Sentences about foils whose folds or first buckles the mesh cannot follow; none if it can."""
+    """Sentences about foils whose folds, first buckles or shapes the mesh cannot follow, if any."""
     radius = study.sheet.diameter_mm / 2
     widths = {
         thickness: study.mesh_of(thickness).element_size_mm / math.sqrt(radius * thickness * 1e-3)
         for thickness in study.thicknesses_um
     }
-    wide = {t: w for t, w in widths.items() if w > SLENDERNESS_MAX * (1 + 1e-6)}
-    early = {t: w for t, w in widths.items() if t not in wide and w > RING_SLENDERNESS_MAX}
-    return [*_of_folds(study, wide), *_of_first_buckling(study, early)]
+    broad = {t: w for t, w in widths.items() if w > SLENDERNESS_MAX * (1 + 1e-6)}
+    early = {t: w for t, w in widths.items() if t not in broad and w > RING_SLENDERNESS_MAX}
+    shapes = wide(widths) if _is_corner(study) else None
+    return [
+        *_of_folds(study, broad),
+        *_of_first_buckling(study, early),
+        *([shapes] if shapes else []),
+    ]
 
 
 def hurried(study: StudyConfig) -> list[str]:
@@ -90,13 +96,13 @@ def hurried(study: StudyConfig) -> list[str]:
     return [said] if said else []
 
 
-def _of_folds(study: StudyConfig, wide: Mapping[float, float]) -> Iterator[str]:
+def _of_folds(study: StudyConfig, broad: Mapping[float, float]) -> Iterator[str]:
     """Where elements are wider than folds; widths over sqrt(R t) by thickness in um."""
-    if wide:
-        rings = f", rings of them buckle at {_loads(study, wide)}" if _is_corner(study) else ""
+    if broad:
+        rings = f", rings of them buckle at {_loads(study, broad)}" if _is_corner(study) else ""
         yield (
-            f"mesh.element_size_mm does not resolve {_those(list(wide))} um: its elements are "
-            f"{_rounded(wide.values())} times sqrt(R t) wide{rings}, and folds need "
+            f"mesh.element_size_mm does not resolve {_those(list(broad))} um: its elements are "
+            f"{_rounded(broad.values())} times sqrt(R t) wide{rings}, and folds need "
             f"{SLENDERNESS_MAX:g} at most, so the report will not trust those stiffnesses; use "
             "auto, or a finer size."
         )
@@ -109,7 +115,7 @@ def _of_first_buckling(study: StudyConfig, early: Mapping[float, float]) -> Iter
         finest = RING_SLENDERNESS_MAX * math.sqrt(radius * min(early) * 1e-3)
         yield (
             f"mesh.element_size_mm of {size:g} mm lets {_those(list(early))} um buckle first at "
-            f"{_loads(study, early)}; crumples are little the worse for it (docs/limits.md), but "
+            f"{_loads(study, early)}; that by itself does little to crumples (docs/limits.md), but "
             f"where the first buckles matter, use {finest:.2g} mm at most."
         )
 

@@ -13,6 +13,7 @@ MODULES = (
     "convergence.plan",
     "dynamics.plan",
     "tradeoff.plan",
+    "accuracy.plan",
     "limits.plan",
     "limits.quick",
     "limits.measured",

@@ -20,6 +20,8 @@ from foilstudy.present.configuration import configuration
 from foilstudy.present.datasheet.facts import Direction, LinkFacts, Value, link_facts
 from foilstudy.present.datasheet.picture import drawn_inline
 from foilstudy.present.ramp import haste_findings
+from foilstudy.present.strain import strain_findings
+from foilstudy.present.width import width_findings
 
 __all__ = ["write_datasheet"]
 
@@ -92,6 +94,7 @@ def _template() -> jinja2.Template:
 
 def _content(cube: xr.Dataset, facts: LinkFacts) -> dict:
     material = configuration(cube).get("material") or {}
+    alone = cube.sel(thickness=[facts.thickness_um])
     name = f"{material['name']}, " if material.get("name") else ""
     return {
         "title": (
@@ -100,7 +103,12 @@ def _content(cube: xr.Dataset, facts: LinkFacts) -> dict:
         ),
         "scope": _scope(cube, facts),
         "counted": _counted(facts),
-        "doubts": [*_doubts(facts), *haste_findings(cube.sel(thickness=[facts.thickness_um]))],
+        "doubts": [
+            *_doubts(facts),
+            *haste_findings(alone),
+            *width_findings(alone),
+            *strain_findings(alone.sel(overlength=[facts.overlength_percent])),
+        ],
         "static": list(_static_rows(facts)),
         "static_words": _static_words(facts),
         "first_words": _first_words(facts),

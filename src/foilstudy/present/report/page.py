@@ -43,6 +43,8 @@ from foilstudy.present.report.verdicts import found_verdicts
 from foilstudy.present.statistics.cells import realised
 from foilstudy.present.statistics.tables import TABLES
 from foilstudy.present.statistics.trust import assess_trust
+from foilstudy.present.strain import strain_findings
+from foilstudy.present.width import width_findings
 from foilstudy.study.sweep.origins import physics_codes
 
 TEMPLATES = Path(__file__).parent / "templates"
@@ -170,6 +172,8 @@ def _content(files: StudyFiles, folder: Path) -> dict:
             *true_state.true_findings(cube),
             *grid.sureness(summary),
             *haste_findings(cube),
+            *width_findings(cube),
+            *strain_findings(cube),
             *grid.wish_findings(summary, config.get("sweep", {}).get("realisations_max")),
             *_other_physics(cube),
         ],

@@ -98,8 +98,8 @@ class SettleOptions:
         Largest norm of the force on the free control points relative to that on the rings.
     switch_residual : float
         Residual at which relaxation gives way to the minimisation, a third of it in every further
-        round. From 1e-3 on the minimisation of ten crumples of 500 um ended where the relaxation
-        went, and one tangent was enough; from 1e-2 it took up to four (docs/tradeoff.md).
+        round. From 1e-3 on the minimisation ends where the relaxation went, and one tangent is
+        enough; from 1e-2 it takes more of them, and so more time (docs/tradeoff.md).
     relaxation_steps_max : int
         Steps of relaxation, over all rounds.
     hessians_per_round : int

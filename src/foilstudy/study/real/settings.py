@@ -22,7 +22,8 @@ FOLDER = Path(__file__).resolve().parents[4] / "config"
 """Beside the sources: a package without them has no workflow, either."""
 
 _List = {"strict": False}
-Sections = dict[str, dict[str, Any]]
+Sections = dict[str, Any]
+"""Of a configuration, and its word of accuracy."""
 
 
 @dataclass(frozen=True)
