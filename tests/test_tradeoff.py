@@ -22,7 +22,7 @@ from foilstudy.study.settings import read_settings
 from foilstudy.study.tradeoff import ensembles, figures, panel, tables
 from foilstudy.study.tradeoff.adaptive import present
 from foilstudy.study.tradeoff.frozen import Static
-from foilstudy.study.tradeoff.knees import beaten
+from foilstudy.study.tradeoff.knees import beaten, worth_more
 from foilstudy.study.tradeoff.pace import in_turns
 from foilstudy.study.tradeoff.plan import LADDERS, RESOLVED, STUDY
 from foilstudy.study.tradeoff.points import bias, default_of, text_of
@@ -299,6 +299,21 @@ def test_it_is_not_by_what_fails_in_another_quantity_or_ladder():
         assert beaten(rows) == []
 
 
+def test_what_is_hardly_dearer_and_far_more_accurate_is_named():
+    rough = row("2000", 1.0, 0.3, default=True)
+    (sentence,) = worth_more([rough, row("4000", 1.2, 0.1)])
+    assert sentence.startswith("a: steps 4000 errs half") and sentence.endswith(
+        "1.20 times the time"
+    )
+    assert worth_more([rough, row("4000", 1.5, 0.1), row("3000", 1.1, 0.2)]) == []
+    assert worth_more([rough, row("4000", None, 0.1), row("3000", 1.1, None)]) == []
+    assert worth_more([DEFAULT, row("4000", 1.2, 0.0)]) == []  # accurate as it is
+    # worse in another quantity
+    other = [row("2000", 1.0, 0.01, default=True, quantity="axial")]
+    other += [row("4000", 1.2, 0.04, quantity="axial")]
+    assert worth_more([rough, row("4000", 1.2, 0.1), *other]) == []
+
+
 # --- the results of the repository ---------------------------------------------------------------
 
 
@@ -319,6 +334,12 @@ def charted():
 
 def test_no_setting_beats_a_default(charted):
     assert beaten(charted) == []
+
+
+def test_none_but_the_frequencies_is_hardly_dearer_and_far_more_accurate(charted):
+    """Which are stored, each for all realisations; docs/tradeoff.md says so."""
+    found = worth_more(charted)
+    assert len(found) == 2 and all("frequencies 400" in sentence for sentence in found)
 
 
 def test_the_table_is_of_these_settings_and_of_the_defaults_as_they_are(charted):

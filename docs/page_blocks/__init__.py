@@ -1,7 +1,10 @@
 """What stands in the blocks of numbers of the pages, see docs/page_numbers.py."""
 
+from page_blocks.buys import buys
 from page_blocks.laws import differences, dimensionless, headline, law, summary, thin, trust
+from page_blocks.localisation import correlation, localisation
 from page_blocks.realisations import (
+    accuracy,
     costs,
     dynamics,
     eigenfrequency,
@@ -22,7 +25,7 @@ BLOCKS = {
     for each in (
         headline, law, differences, dimensionless, summary, trust, beside, simulation, experiment,
         bound, prestress, variability, dynamics, eigenfrequency, shapes, steps, costs, tradeoff,
-        explanation, influences, thin, whole,
+        explanation, influences, thin, whole, accuracy, buys, localisation, correlation,
     )
 }  # fmt: skip
 """Functions of studies that yield lines, by the name of their block."""

@@ -157,6 +157,11 @@ def explanation(study: Study) -> Iterator[str]:
     yield from study.file("laws.md").read_text("utf-8").splitlines()
 
 
+def accuracy(study: Study) -> Iterator[str]:
+    """What the words of accuracy cost, and how far off they are."""
+    yield from study.file("accuracy.md").read_text("utf-8").splitlines()
+
+
 def influences(study: Study) -> Iterator[str]:
     """How far the true stiffness depends on the method."""
     yield from study.file("influences.md").read_text("utf-8").splitlines()
