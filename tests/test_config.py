@@ -735,3 +735,11 @@ def test_a_text_that_looks_like_a_number_is_written_as_a_text(name, tmp_path):
     path = tmp_path / "study.yaml"
     path.write_text(config.to_yaml(), encoding="utf-8")
     assert load_config(path) == config
+
+
+@pytest.mark.parametrize("stress", [0, -3])
+def test_a_foil_that_yields_at_nothing_is_refused(stress):
+    plastic = {"law": "plastic", "yield_stress_mpa": stress}
+    sweep = {"thickness_um": [500], "reference_height_mm": [170]}
+    with pytest.raises(ConfigError, match=rf"yield_stress_mpa is {stress}, out of range; use a"):
+        load_config({"sweep": sweep, "material": plastic})

@@ -3,6 +3,7 @@
 from page_blocks.buys import buys
 from page_blocks.laws import differences, dimensionless, headline, law, summary, thin, trust
 from page_blocks.localisation import correlation, localisation
+from page_blocks.ramps import ramps
 from page_blocks.realisations import (
     accuracy,
     costs,
@@ -25,7 +26,7 @@ BLOCKS = {
     for each in (
         headline, law, differences, dimensionless, summary, trust, beside, simulation, experiment,
         bound, prestress, variability, dynamics, eigenfrequency, shapes, steps, costs, tradeoff,
-        explanation, influences, thin, whole, accuracy, buys, localisation, correlation,
+        explanation, influences, thin, whole, accuracy, buys, localisation, correlation, ramps,
     )
 }  # fmt: skip
 """Functions of studies that yield lines, by the name of their block."""
