@@ -1,6 +1,7 @@
 """The numbers of the studies on the pages are those of their cubes and tables."""
 
 import re
+import shutil
 import sys
 from pathlib import Path
 
@@ -21,6 +22,8 @@ sys.path.insert(0, str(ROOT / "docs"))
 import page_numbers as pages  # noqa: E402
 from page_numbers import Study, block  # noqa: E402
 
+from foilstudy.study.real.settings import ladder  # noqa: E402
+
 TRACKED = ("thesis", "resolved")
 """Studies of which the repository keeps cube and tables."""
 STIFFER = 3.0
@@ -32,6 +35,8 @@ def make_study(results, name, cube):
     config = load_config(ROOT / f"config/{name}.yaml").to_yaml()
     angle = np.full((cube.sizes["thickness"], cube.sizes["overlength"], cube.sizes["seed"]), 45.0)
     cube["fold_angle"] = cube["status"].dims, angle
+    for name, value in (("shortening_spread", 0.7), ("axisymmetric_share", 0.4)):
+        cube[name] = cube["status"].dims, np.full(angle.shape, value)
     cube = cube.assign_attrs(config=config, machine="a machine")
     folder = results / name
     write_tables(open_cube(write_cube(cube, folder / "cube.nc")), folder)
@@ -51,13 +56,21 @@ def results(tmp_path_factory):
     for name in ("static_stiffness", "static_stiffness_converged", "static_stiffness_mesh_error"):
         thin[name] = 2 * STIFFER * thin[name]
     make_study(folder, "resolved_thin", thin)
+    slow = make_cube((130.0, 250.0, 500.0), seeds=1, cv=ten_percent)
+    for name in ("static_stiffness", "static_stiffness_converged", "static_stiffness_mesh_error"):
+        slow[name] = 0.8 * STIFFER * slow[name]
+    make_study(folder, "resolved_slow", slow)
     full = make_cube((250.0, 500.0), seeds=2, cv=ten_percent)
     plain = full["static_stiffness_converged"]
     given = {"true_stiffness": plain / 2, "stiffness_contacts_stuck": 2 * plain}
     make_study(folder, "real_resolved", full.assign(given))
-    for table in ("tradeoff/tradeoff.md", "real/laws.md", "truth/influences.md"):
+    tables = ("tradeoff/tradeoff.md", "real/laws.md", "truth/influences.md", "accuracy/accuracy.md")
+    for table in tables:
         (folder / table).parent.mkdir()
         (folder / table).write_text("| a | table |\n", "utf-8")
+    (folder / "specimen").mkdir()
+    for table in ("tradeoff/tradeoff.csv", "real/trials.csv", "specimen/specimen.md"):
+        shutil.copy(ROOT / "results" / table, folder / table)
     return folder
 
 
@@ -149,6 +162,42 @@ def test_thin_foil_stands_beside_the_law_that_leaves_it_out(results):
     assert {row[1] for row in cells(beside)} == {"50"}
     ratios = [float(row[5]) for row in cells(beside)]
     assert ratios == pytest.approx(6 * [2.0], rel=0.25)
+
+
+def test_a_slower_ramp_stands_beside_the_usual_one(results):
+    """Of which the foil here is a fifth softer."""
+    levels, laws = block("ramps", *studies(results, "resolved_slow", "resolved")).split("\n\n")
+    rows = cells(levels)
+    assert [row[1] for row in rows] == 2 * ["130", "250", "500", "all"]
+    assert all(len(row) == 2 + 5 + 1 for row in rows)
+    for row in rows:
+        value, low, high = (float(word.strip("()")) for word in row[-1].split() if word != "to")
+        assert low <= value <= high and value == pytest.approx(0.8, rel=0.12)
+    assert [row[-1] for row in cells(laws)] == 2 * ["15", "90"]
+
+
+def test_one_realisation_has_no_interval(results):
+    lone = Study(results / "resolved_thin")
+    lone.__dict__["cube"] = lone.cube.isel(seed=[0])
+    *_, beside = block("thin", Study(results / "resolved"), lone).split("\n\n")
+    assert all(float(row[3]) > 0 for row in cells(beside))
+
+
+def test_where_the_shortening_is_by_model():
+    real, thesis = Study(pages.RESULTS / "real"), Study(pages.RESULTS / "thesis")
+    rows = cells(block("localisation", real, thesis))
+    assert [row[0] for row in rows[:-1]] == [step.words for step in ladder("real").steps]
+    assert rows[-1][0] == "`results/thesis`"
+    assert sum(int(row[1]) for row in rows[:-1]) == len(real.table("trials"))
+    shares = [float(cell.split()[0]) for row in rows for cell in row[2:]]
+    assert len(shares) == 6 * len(rows) and 0.1 < min(shares) and max(shares) < 1
+
+
+def test_a_setting_stands_between_its_neighbours():
+    rows = cells(block("buys", Study(pages.RESULTS / "tradeoff")).split("\n\n")[0])
+    (ramp,) = (row for row in rows if row[:2] == ["ensembles, 500 um", "ramp steps"])
+    assert ramp[2].startswith("8000: ")
+    assert ramp[3].startswith("4000: 0.68, ") and ramp[4] == "32000: 2.87, reference"
 
 
 def test_the_whole_model_stands_beside_elastic_foil_and_the_measured_law(results):

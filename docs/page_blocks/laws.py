@@ -101,7 +101,7 @@ def thin(study: Study, thinner: Study) -> Iterator[str]:
             mean = MeanInterval.of(others.value[here])
             said = float(alone.law.stiffness(overlength, thickness))
             value, low, high = (short(each, 3) for each in (mean.mean, mean.low, mean.high))
-            measured = f"{value} ({low} to {high})"
+            measured = f"{value} ({low} to {high})" if mean.n > 1 else value
             row = [short(overlength, 3), measured, short(said, 3), f"{mean.mean / said:.2f}"]
             beside.append([direction, str(thickness), *row])
     yield from rows(["", "law over", "α", "β, overlength", "γ, thickness", "R²", "n"], body)
