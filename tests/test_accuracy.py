@@ -204,7 +204,7 @@ def test_choices_say_for_each_thickness_what_it_gets_and_why():
     assert thin.startswith("  130 um: elements of 2.6 mm (25 % energy error), 3077 steps of ramp")
     assert thick.startswith("  500 um: elements of 5.1 mm (25 % energy error), 800 steps of ramp")
     assert thick.endswith("shape refined to 10 %, at most twice, reduction to 0.01")
-    assert "Elements of 130, 500 um are 0.72 times sqrt(R t) wide" in wide
+    assert "The elements of foil of 130, 500 um are 0.72 times sqrt(R t) wide" in wide
     assert "The ramp hurries foil of 130, 500 um: 4 steps" in told
     _, both, *told = choices(study(mesh={"element_size_mm": 5}, relaxation={"ramp_steps": 2000}))
     assert len(told) == 4  # folds not resolved, first buckles that come early, shapes, the ramp
@@ -215,7 +215,7 @@ def test_elements_on_which_shapes_are_others_are_said_where_there_are_some():
     """On the 5 mm of the published study 500 um is at 0.71, and 130 um is not resolved at all."""
     assert unresolved(study()) == unresolved(study(accuracy="fine")) == []
     *_, sentence = unresolved(study(mesh={"element_size_mm": 5}))
-    assert sentence.startswith("Elements of 500 um are 0.71 times sqrt(R t) wide.")
+    assert sentence.startswith("The elements of foil of 500 um are 0.71 times sqrt(R t) wide.")
     assert "mesh.energy_error_percent: 10" in sentence
     # what is advised is fine enough
     assert unresolved(study(mesh={"energy_error_percent": 10})) == []

@@ -46,6 +46,9 @@ def _cells(table: pd.DataFrame, heights: list[int]) -> Iterator[str]:
         for height in heights:
             values = table.loc[table["height_mm"] == height, measure].to_numpy(float)
             values = values[np.isfinite(values)]
+            if not values.size:
+                yield ""
+                continue
             yield f"{values.mean():.2f} ({values.min():.2f} to {values.max():.2f})"
 
 

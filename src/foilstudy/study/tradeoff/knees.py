@@ -80,7 +80,8 @@ def worth_more(rows: Iterable[Mapping]) -> list[str]:
 def _no_worse(row: Mapping, default: Mapping) -> bool:
     if not (_known(row) and _known(default)):
         return False
-    return row["ratio"] <= DEARER and _bound(row) <= _bound(default)
+    no_more = _bound(row) <= _bound(default) and row["failed"] <= default["failed"]
+    return row["ratio"] <= DEARER and no_more
 
 
 def _bound(row: Mapping) -> float:
