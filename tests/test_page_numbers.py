@@ -35,8 +35,8 @@ def make_study(results, name, cube):
     config = load_config(ROOT / f"config/{name}.yaml").to_yaml()
     angle = np.full((cube.sizes["thickness"], cube.sizes["overlength"], cube.sizes["seed"]), 45.0)
     cube["fold_angle"] = cube["status"].dims, angle
-    for name, value in (("shortening_spread", 0.7), ("axisymmetric_share", 0.4)):
-        cube[name] = cube["status"].dims, np.full(angle.shape, value)
+    for measure, value in (("shortening_spread", 0.7), ("axisymmetric_share", 0.4)):
+        cube[measure] = cube["status"].dims, np.full(angle.shape, value)
     cube = cube.assign_attrs(config=config, machine="a machine")
     folder = results / name
     write_tables(open_cube(write_cube(cube, folder / "cube.nc")), folder)

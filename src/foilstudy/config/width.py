@@ -30,10 +30,10 @@ def wide(widths: Mapping[float, float], unit: str = "um") -> str | None:
     thicknesses = ", ".join(f"{thickness:g}" for thickness in sorted(found))
     ends = dict.fromkeys(f"{end:.2g}" for end in (min(found.values()), max(found.values())))
     return (
-        f"The elements of foil of {thicknesses} {unit} are {' to '.join(ends)} times sqrt(R t) wide. They "
-        f"follow the folds, but beyond {SAME_SHAPES_MAX:g} foil comes to rest in other shapes than "
-        f"on finer ones: at 0.71 foil of 500 {unit} was 1.75 times (1.2 to 2.5) as stiff axially "
-        "at 31 % overlength as at 0.46, and 0.93 times (0.84 to 1.02) radially "
+        f"The elements of foil of {thicknesses} {unit} are {' to '.join(ends)} times sqrt(R t) "
+        f"wide. They follow the folds, but beyond {SAME_SHAPES_MAX:g} foil comes to rest in other "
+        f"shapes than on finer ones: at 0.71 foil of 500 {unit} was 1.75 times (1.2 to 2.5) as "
+        "stiff axially at 31 % overlength as at 0.46, and 0.93 times (0.84 to 1.02) radially "
         "(docs/real-foil.md). Where an axial stiffness counts, set mesh.energy_error_percent: 10, "
         "and no mesh.element_size_mm."
     )
