@@ -2,7 +2,7 @@
 
 from page_blocks.buys import buys
 from page_blocks.laws import differences, dimensionless, headline, law, summary, thin, trust
-from page_blocks.localisation import correlation, localisation
+from page_blocks.localisation import correlation, followed, localisation
 from page_blocks.ramps import ramps
 from page_blocks.realisations import (
     accuracy,
@@ -27,6 +27,7 @@ BLOCKS = {
         headline, law, differences, dimensionless, summary, trust, beside, simulation, experiment,
         bound, prestress, variability, dynamics, eigenfrequency, shapes, steps, costs, tradeoff,
         explanation, influences, thin, whole, accuracy, buys, localisation, correlation, ramps,
+        followed,
     )
 }  # fmt: skip
 """Functions of studies that yield lines, by the name of their block."""

@@ -7,10 +7,12 @@ from itertools import groupby
 
 import numpy as np
 import pandas as pd
+from scipy.stats import spearmanr
 
 from foilstudy.study.real.settings import ladder
 from page_blocks.study import Study, rows
 
+_NO_SPREAD = 1e-9
 _MEASURES = {"shortening_spread": "spread", "axisymmetric_share": "axisymmetric"}
 
 
@@ -50,6 +52,33 @@ def _cells(table: pd.DataFrame, heights: list[int]) -> Iterator[str]:
                 yield ""
                 continue
             yield f"{values.mean():.2f} ({values.min():.2f} to {values.max():.2f})"
+
+
+def followed(models: Study, *studies: Study) -> Iterator[str]:
+    """Rank correlation of the axial stiffness with the spread, of foils with others of their kind.
+
+    Both less the mean of their kind: foils of one model, or study, thickness and height.
+    """
+    kinds = ["step", "thickness_um", "height_mm"]
+    tables = [(f"the models of `results/{models.folder.name}`", models.table("trials"), kinds)]
+    for study in studies:
+        cube = study.cube
+        table = cube[["shortening_spread"]].to_dataframe()
+        stiffness = cube["static_stiffness"].sel(direction="axial", drop=True)
+        table["static_stiffness_axial"] = stiffness.to_series()
+        tables.append((f"`results/{study.folder.name}`", table, ["thickness", "overlength"]))
+    body = []
+    for name, table, kind in tables:
+        known = table[table["static_stiffness_axial"] > 0].dropna(subset=["shortening_spread"])
+        values = known.assign(stiffness=np.log(known["static_stiffness_axial"]))
+        columns = ["stiffness", "shortening_spread"]
+        apart = values[columns] - values.groupby(kind)[columns].transform("mean")
+        if apart["shortening_spread"].abs().max() < _NO_SPREAD:
+            body.append([name, f"{len(apart)}", "no scatter"])
+            continue
+        found = spearmanr(apart["stiffness"], apart["shortening_spread"])
+        body.append([name, f"{len(apart)}", f"{found.statistic:+.2f} (p = {found.pvalue:.2g})"])
+    yield from rows(["foils of", "number", "rank correlation with the spread, axial"], body)
 
 
 def correlation(study: Study) -> Iterator[str]:

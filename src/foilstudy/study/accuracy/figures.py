@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from foilstudy.base.confidence import Ratio
 from foilstudy.plot.style import PAGE_WIDTH, marker, new_figure, styled, value_ticks
 from foilstudy.study.accuracy.summary import QUANTITIES, Found
 
@@ -13,24 +14,20 @@ _GREYS = ("0.1", "0.45", "0.65", "0.3")
 def chart(found: Found):
     """A panel for each quantity: ratio to what stands above, with its interval, over time."""
     words = {each.step: each.words for each in found.words}
-    foils = list(dict.fromkeys((each.thickness_um, each.height_mm) for each in found.words))
     figure = new_figure(PAGE_WIDTH, 4.2)
     panels = figure.subplots(1, len(QUANTITIES), sharex=True, sharey=True)
     for panel, quantity in zip(panels, QUANTITIES):
         for k, each in enumerate(found.words):
             mean, ratio = each.means[quantity], each.ratios.get(quantity)
-            value = ratio.value if ratio else 1.0
-            low, high = (
-                (ratio.low, ratio.high) if ratio else (mean.low / mean.mean, mean.high / mean.mean)
-            )
+            # what others stand beside shows how well it is known itself
+            shown = ratio or Ratio(1.0, mean.low / mean.mean, mean.high / mean.mean)
             beside = f" (over {words[each.beside]})" if each.beside else ""
             panel.errorbar(
                 each.cpu_seconds,
-                value,
-                yerr=[[value - low], [high - value]],
+                shown.value,
+                yerr=[[shown.value - shown.low], [shown.high - shown.value]],
                 fmt=marker(k),
                 color=_GREYS[k % len(_GREYS)],
-                mfc="white" if len(foils) > 1 and each.thickness_um == foils[0][0] else None,
                 capsize=2.5,
                 label=f"{each.words}, {each.thickness_um} µm{beside}",
             )
