@@ -12,7 +12,7 @@ from foilstudy.base.outcome import USABLE
 from foilstudy.base.tables import markdown_table
 from foilstudy.study.accuracy.plan import NAME
 from foilstudy.study.kernel.plan import Record, Records
-from foilstudy.study.real.settings import Trial, ladder
+from foilstudy.study.real.settings import Trial, by_foil, ladder
 
 ENERGY, AXIAL, RADIAL = "energy", "axial", "radial"
 QUANTITIES = (ENERGY, AXIAL, RADIAL)
@@ -73,9 +73,7 @@ def found(records: Records) -> Found:
 
 
 def _summed(records: Mapping[Trial, Record]) -> Iterator[Word]:
-    foils: dict[tuple[str, int, int], list[Record]] = {}
-    for trial, record in records.items():
-        foils.setdefault((trial.step, trial.thickness_um, trial.height_mm), []).append(record)
+    foils = by_foil(records)
     steps = {step.name: step for step in ladder(NAME).steps}
     means = {place: _means(seeds) for place, seeds in foils.items()}
     for (name, *foil), seeds in foils.items():

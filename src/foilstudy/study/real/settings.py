@@ -5,12 +5,12 @@ Cheap to import.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from itertools import product
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import pydantic
 
@@ -24,6 +24,7 @@ FOLDER = Path(__file__).resolve().parents[4] / "config"
 _List = {"strict": False}
 Sections = dict[str, Any]
 """Of a configuration, and its word of accuracy."""
+Measured = TypeVar("Measured")
 
 
 @dataclass(frozen=True)
@@ -138,3 +139,11 @@ def trials(study: str) -> tuple[Trial, ...]:
     """All trials of a side study; none in an installed package."""
     models = ladder(study)
     return () if models is None else tuple(models.trials())
+
+
+def by_foil(measured: Mapping[Trial, Measured]) -> dict[tuple[str, int, int], list[Measured]]:
+    """What was measured of every seed, by step, thickness (um) and height (mm)."""
+    foils: dict[tuple[str, int, int], list[Measured]] = {}
+    for trial, each in measured.items():
+        foils.setdefault((trial.step, trial.thickness_um, trial.height_mm), []).append(each)
+    return foils

@@ -12,7 +12,7 @@ from foilstudy.base.tables import markdown_table
 from foilstudy.measure.stiffness.directional import DIRECTIONS
 from foilstudy.study.kernel.plan import Records
 from foilstudy.study.real.laws import STATES, number
-from foilstudy.study.real.settings import Trial, ladder
+from foilstudy.study.real.settings import Trial, by_foil, ladder
 from foilstudy.study.truth.plan import NAME
 
 SHOWN = ("with its stresses", "stress-free")
@@ -65,9 +65,7 @@ def found(records: Records) -> Found:
 
 
 def _influences(results: dict[Trial, dict]) -> Iterator[Influence]:
-    foils: dict[tuple[str, int, int], list[dict]] = {}
-    for trial, result in results.items():
-        foils.setdefault((trial.step, trial.thickness_um, trial.height_mm), []).append(result)
+    foils = by_foil(results)
     steps = {step.name: step for step in ladder(NAME).steps}
     for (name, *foil), seeds in foils.items():
         beside = steps[name].beside
