@@ -2,12 +2,23 @@
 
 import numpy as np
 import pytest
+import yaml
 
+from foilstudy.base.cube import open_cube
 from foilstudy.base.record import read_record
-from foilstudy.config import load_config
-from foilstudy.config.scene import recipe_of
+from foilstudy.config import ResponseTask, load_config
+from foilstudy.config.scene import dynamics_of, recipe_of
+from foilstudy.linalg import SolveError
 from foilstudy.measure.verdicts import names_of
+from foilstudy.pipeline import one_sided as one_sided_module
 from foilstudy.pipeline.crumpled import Crumpled
+from foilstudy.pipeline.one_sided import one_sided
+from foilstudy.present.datasheet.facts import link_facts
+from foilstudy.present.datasheet.page import write_datasheet
+from foilstudy.present.files import StudyFiles
+from foilstudy.present.report import write_report
+from foilstudy.present.report.small_motions import bracket_rows, secant_rows
+from foilstudy.present.statistics.tables import write_tables
 from foilstudy.study.sweep.crumple import crumple_job
 from foilstudy.study.sweep.cube import gather, has
 from foilstudy.study.sweep.cylinder import cylinder_bounds
@@ -21,6 +32,9 @@ FIRM = {"law": "plastic", "yield_stress_mpa": 60.0}
 """Coarse elements of softer foil fold flat before anything touches."""
 
 
+DYNAMICS = {"shown_max_hz": 30, "frequencies": 3, "reduction": "guyan"}
+
+
 def study_with(**sections):
     content = {
         "study": {"name": "touching"},
@@ -28,7 +42,7 @@ def study_with(**sections):
         "mesh": {"element_size_mm": 18},
         "relaxation": {"ramp_steps": 200},
         "stiffness": {"refinements": 0},
-        "dynamics": {"shown_max_hz": 30, "frequencies": 3, "reduction": "guyan"},
+        "dynamics": DYNAMICS,
     }
     return load_config(content | sections)
 
@@ -76,7 +90,12 @@ def test_contact_is_part_of_what_a_crumple_was_made_of():
 @pytest.fixture(scope="module")
 def touching(tmp_path_factory):
     """The records of a plastic foil with contact, and its study."""
-    study = study_with(contact=BARRIER | {"ring_planes": True}, material=FIRM)
+    study = study_with(
+        contact=BARRIER | {"ring_planes": True},
+        material=FIRM,
+        stiffness={"refinements": 0, "one_sided": ["axial"]},
+        dynamics=DYNAMICS | {"contacts": ["normal", "stuck"]},
+    )
     results = tmp_path_factory.mktemp("touching")
     (cell,) = study.cells()
     folder = cell_folder(results, cell)
@@ -124,6 +143,106 @@ def test_the_cube_has_the_bracket_and_what_touches(touching):
         for kind in ("ignored", "normal", "stuck")
     ]
     assert low == pytest.approx(bracket[[0, 1, 3], 0], rel=0.02)
+
+
+def test_the_cube_has_the_dynamic_bracket_and_both_secants(touching, tmp_path):
+    study, results, folder = touching
+    gather(study, results, tmp_path / "cube.nc")
+    cube = open_cube(tmp_path / "cube.nc").squeeze()
+    at_rest = cube.sel(definition="transfer").isel(frequency=0)
+    crumpled = Crumpled.recorded(folder / "crumple.nc")
+    options = dynamics_of(study.dynamics)
+    for kind in ("normal", "stuck"):
+        static = cube[f"stiffness_contacts_{kind}"]
+        dynamic = at_rest[f"dynamic_stiffness_contacts_{kind}"]
+        np.testing.assert_allclose(abs(dynamic), static, rtol=0.02)
+        vibration = crumpled.vibration(options, contacts=kind)
+        found = cube[f"eigenfrequency_contacts_{kind}"]
+        np.testing.assert_allclose(found, vibration.eigenfrequencies, rtol=1e-6)
+        assert (found >= (1 - 1e-9) * cube["eigenfrequency"]).all()  # springs are never negative
+    assert "dynamic_stiffness_contacts_rigid" not in cube
+    secants = one_sided(crumpled, "axial")
+    both = cube[["stiffness_loading", "stiffness_unloading"]].to_array()
+    assert both.sel(direction="axial").values == pytest.approx(
+        [secants.loading, secants.unloading], rel=1e-6
+    )
+    assert np.isnan(both.sel(direction="radial")).all()
+
+
+def test_the_page_and_the_data_sheet_show_the_bracket_and_both_secants(touching, tmp_path):
+    study, results, _ = touching
+    gather(study, results, tmp_path / "cube.nc")
+    files = StudyFiles.found(tmp_path / "cube.nc")
+    write_tables(files.cube, files.folder)
+    page = write_report(files, tmp_path / "report.html").read_text("utf-8")
+    assert "In 1 of 1 configuration parts of the foil touch" in page
+    for words in ("closed as springs", "Dynamic stiffness by what closed contacts do", "unloading"):
+        assert words in page
+    cube = open_cube(tmp_path / "cube.nc")
+    (row,) = bracket_rows(cube)
+    assert row.stiffness["axial", "stuck"] == cube["stiffness_contacts_stuck"].squeeze()[0]
+    assert (row.touching, row.n, row.pairs) == (1, 1, cube["contact_pairs"])
+    assert [each.direction for each in secant_rows(cube)] == ["axial"]
+    axial, radial = link_facts(cube).directions
+    stands = cube["true_stiffness"].squeeze()  # with its stresses it may resist nothing
+    assert len(axial.beside) == (4 if stands[0] > 0 else 1)
+    assert len(radial.beside) == (2 if stands[1] > 0 else 1)
+    write_datasheet(cube, tmp_path / "sheet.html")
+    assert "axial, closed contacts stuck" in (tmp_path / "sheet.html").read_text("utf-8")
+
+
+def test_where_nothing_touches_the_dynamic_bracket_costs_nothing(tmp_path, monkeypatch):
+    few = {"thickness_um": [500], "overlength_percent": [5], "realisations": 1}
+    contacts = DYNAMICS | {"contacts": ["stuck"]}
+    study = study_with(contact=BARRIER, sweep=few, dynamics=contacts)
+    (cell,) = study.cells()
+    crumple_job(study.crumple_task(cell), tmp_path / "crumple.nc")
+    monkeypatch.setattr(Crumpled, "vibration", None)
+    respond_job(study.response_task(cell), tmp_path / "crumple.nc", tmp_path / "response.nc")
+    values, _ = read_record(tmp_path / "response.nc")
+    for name in ("dynamic_stiffness_{}re", "dynamic_stiffness_{}im", "eigenfrequency{}"):
+        stuck = "_contacts_stuck" if name.endswith("{}") else "contacts_stuck_"
+        np.testing.assert_array_equal(values[name.format(stuck)], values[name.format("")])
+
+
+def test_small_motions_of_which_the_answer_is_known_are_refused():
+    sides = {"refinements": 0, "one_sided": ["axial"]}
+    assert "set material.law: plastic" in refusal(stiffness=sides)
+    assert "set contact.kind: barrier" in refusal(dynamics=DYNAMICS | {"contacts": ["stuck"]})
+    twice = {"refinements": 0, "one_sided": ["axial", "axial"]}
+    assert "names one twice" in refusal(stiffness=twice, contact=BARRIER)
+    study_with(stiffness=sides, contact=BARRIER)
+
+
+def test_what_is_not_asked_for_leaves_no_trace_in_tasks_and_cubes():
+    plain = study_with(contact=BARRIER)
+    told = plain.to_yaml() + plain.response_task(plain.cells()[0]).model_dump_json()
+    assert "one_sided" not in told and "contacts" not in told
+    sides = {"refinements": 0, "one_sided": ["axial", "radial"]}
+    asked = study_with(
+        contact=BARRIER, stiffness=sides, dynamics=DYNAMICS | {"contacts": ["stuck"]}
+    )
+    task = asked.response_task(asked.cells()[0])
+    assert ResponseTask.model_validate_json(task.model_dump_json()) == task
+    assert load_config(yaml.safe_load(asked.to_yaml())) == asked
+    dear, cheap = (
+        expected(each).configurations[0].seconds_of["response"] for each in (asked, plain)
+    )
+    assert dear > 2 * cheap
+
+
+def test_a_foil_that_snaps_has_no_secants_and_says_so(touching, tmp_path, monkeypatch):
+    study, _, folder = touching
+    monkeypatch.setattr(one_sided_module, "minimised", _singular)
+    (cell,) = study.cells()
+    respond_job(study.response_task(cell), folder / "crumple.nc", tmp_path / "response.nc")
+    values, attributes = read_record(tmp_path / "response.nc")
+    assert np.isnan(values["stiffness_loading"]).all() and attributes["status"] == "converged"
+    assert "no stiffness of axial loading and unloading" in attributes["message"]
+
+
+def _singular(*_):
+    raise SolveError("singular")
 
 
 def test_without_contact_nothing_speaks_of_it():

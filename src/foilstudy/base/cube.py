@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 CONVENTION = "foilstudy cube 1"
 CONTENT = "content"
 """Attribute with the digest of all values, coordinates included."""
+_REAL = "_re"
+"""Ending of the real part of a variable, whose imaginary part ends in ``_im``."""
 
 
 def verified_attributes(path: Path) -> dict[str, Any]:
@@ -52,8 +54,8 @@ def open_cube(path: str | Path) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        Loaded; ``dynamic_stiffness`` replaces its real and imaginary parts, and so does
-        ``true_dynamic_stiffness`` where there is one.
+        Loaded; ``dynamic_stiffness`` replaces its real and imaginary parts, and so do
+        ``true_dynamic_stiffness`` and those of closed contacts where there are any.
 
     Raises
     ------
@@ -80,12 +82,9 @@ def open_cube(path: str | Path) -> xr.Dataset:
             f"{path} is a NetCDF file but not a cube of foilstudy; give the cube.nc of a study, "
             "not the record of one realisation."
         )
-    words = {
-        "dynamic_stiffness": "dynamic stiffness",
-        "true_dynamic_stiffness": "dynamic stiffness of the foil as it stands",
-    }
-    for name in words.keys() & {each.removesuffix("_re") for each in cube}:
-        real, imaginary = cube[f"{name}_re"], cube[f"{name}_im"]
-        whole = (real + 1j * imaginary).assign_attrs(units="N/m", long_name=words[name])
-        cube = cube.assign({name: whole}).drop_vars([f"{name}_re", f"{name}_im"])
+    for name in [str(each)[: -len(_REAL)] for each in cube if str(each).endswith(_REAL)]:
+        real, imaginary = cube[f"{name}{_REAL}"], cube[f"{name}_im"]
+        words = real.attrs["long_name"].removesuffix(", real part")
+        whole = (real + 1j * imaginary).assign_attrs(units=real.attrs["units"], long_name=words)
+        cube = cube.assign({name: whole}).drop_vars([f"{name}{_REAL}", f"{name}_im"])
     return cube

@@ -205,6 +205,7 @@ class StudyConfig(Section):
         problems += self._installation_problems()
         problems += self._specimen_problems()
         problems += self._measured_problems()
+        problems += self._following_problems()
         if not problems:  # its meshes are there
             problems += self._contact_problems()
         problems += _duplicates("sweep.thickness_um", self.sweep.thickness_um, thickness_id)
@@ -342,6 +343,26 @@ class StudyConfig(Section):
                 "imperfection.removal is after_buckling, which contact does not know of; remove "
                 "it, or set contact.kind: none."
             )
+
+    def _following_problems(self) -> Iterator[str]:
+        """Small motions whose answer is known, as nothing yields or touches in them."""
+        if self.stiffness.one_sided and not self.beyond_elastic:
+            yield (
+                "stiffness.one_sided is given, but this foil is elastic and touches nothing, and "
+                "so is as stiff one way as the other; remove it, or set material.law: plastic."
+            )
+        if self.dynamics.contacts and self.contact.kind == "none":
+            yield (
+                "dynamics.contacts is given, but contact.kind is none, so that nothing touches; "
+                "remove it, or set contact.kind: barrier."
+            )
+        lists = (
+            ("stiffness.one_sided", self.stiffness.one_sided),
+            ("dynamics.contacts", self.dynamics.contacts),
+        )
+        for key, words in lists:
+            if len(set(words)) < len(words):
+                yield f"{key} is {list(words)}, which names one twice; name each once."
 
     def _size_problems(self) -> Iterator[str]:
         number = len(self.thicknesses_um) * len(self.reference_heights_mm) * len(self.seeds)
@@ -515,6 +536,7 @@ class StudyConfig(Section):
             dynamics=self.dynamics,
             air=self.air,
             linear_directions=self.amplitude.directions,
+            one_sided=self.stiffness.one_sided,
             thickness_um=cell.thickness_um,
             reference_height_mm=cell.reference_height_mm,
             seed=cell.seed,

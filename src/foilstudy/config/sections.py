@@ -22,7 +22,12 @@ from pydantic import (
 )
 
 from foilstudy.base.registry import Registry, did_you_mean
-from foilstudy.measure.choices import REDUCTIONS, STRESS_REMOVALS, STRUCTURAL_DAMPINGS
+from foilstudy.measure.choices import (
+    CLOSED_CONTACTS,
+    REDUCTIONS,
+    STRESS_REMOVALS,
+    STRUCTURAL_DAMPINGS,
+)
 from foilstudy.model.imperfections import IMPERFECTIONS
 from foilstudy.model.materials import MATERIALS
 from foilstudy.model.shell.material import LAWS
@@ -507,6 +512,15 @@ class Method(Section):
     )
 
 
+def without_empty(section: Section, values: dict[str, Any], key: str) -> dict[str, Any]:
+    """The values of a section, a list left out that is empty: cubes and records of studies
+    without it stay what they were before there was any."""
+    return values if getattr(section, key) else {k: v for k, v in values.items() if k != key}
+
+
+Direction = Literal["axial", "radial"]
+
+
 class Stiffness(Section):
     """Static stiffness between the end rings."""
 
@@ -538,12 +552,27 @@ class Stiffness(Section):
         ge=0,
         le=2,
     )
+    one_sided: tuple[Direction, ...] = unit_field(
+        "list",
+        "Directions of `stiffness_loading` and `stiffness_unloading`: the top ring is moved by a "
+        "fiftieth of the thickness one way and the other, what yields, touches and rubs following. "
+        "For foil that is more than elastic. Left out, none is computed.",
+        (),
+        max_length=2,
+        strict=False,
+    )
+
+    @model_serializer(mode="wrap")
+    def _without_empty_list(
+        self, values_of: Callable[[Stiffness], dict[str, Any]]
+    ) -> dict[str, Any]:
+        return without_empty(self, values_of(self), "one_sided")
 
 
 class Amplitude(Section):
     """How far the stiffness holds: amplitude at which that of the foil as it is changes by 1 %."""
 
-    directions: tuple[Literal["axial", "radial"], ...] = unit_field(
+    directions: tuple[Direction, ...] = unit_field(
         "list",
         "Directions of `amplitude_1_percent`: the top ring is moved there and back, up to 1 mm. At "
         "elements of 5 mm it takes 5 to 15 s a direction of a realisation. Left out, none is "
@@ -593,6 +622,21 @@ class Dynamics(Section):
     mode_shapes: int = unit_field(
         "1", "Mode shapes of these that are kept, for the report and other tools.", 6, ge=0, le=100
     )
+    contacts: tuple[Literal[CLOSED_CONTACTS], ...] = unit_field(
+        "list",
+        "What closed contacts do in dynamic stiffnesses beside the one in which they are open: "
+        "springs along their gaps as stiff as the barrier (`normal`), rigid ones (`rigid`), or "
+        "rigid in all directions (`stuck`). Each takes one more reduction.",
+        (),
+        max_length=3,
+        strict=False,
+    )
+
+    @model_serializer(mode="wrap")
+    def _without_empty_list(
+        self, values_of: Callable[[Dynamics], dict[str, Any]]
+    ) -> dict[str, Any]:
+        return without_empty(self, values_of(self), "contacts")
 
     @model_validator(mode="after")
     def _fits_together(self) -> Dynamics:
@@ -649,7 +693,7 @@ class MeasuredRun(Section):
     height_mm: float | None = unit_field(
         "mm", "Reference height, one of the sweep; likewise.", None, gt=0, le=HEIGHT_MAX_MM
     )
-    direction: Literal["axial", "radial"] = unit_field("choice", "Of the motion.", "axial")
+    direction: Direction = unit_field("choice", "Of the motion.", "axial")
     definition: Literal["transfer", "driving", "relative"] = unit_field(
         "choice", "Which dynamic stiffness it is.", "transfer"
     )
@@ -683,9 +727,4 @@ class Report(Section):
 
     @model_serializer(mode="wrap")
     def _without_empty_list(self, values_of: Callable[[Report], dict[str, Any]]) -> dict[str, Any]:
-        """Cubes and records of studies without measurements stay as they were before there were
-        any."""
-        values = values_of(self)
-        if not self.measured:
-            values.pop("measured", None)
-        return values
+        return without_empty(self, values_of(self), "measured")

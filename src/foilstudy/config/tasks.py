@@ -6,7 +6,10 @@ has changed: no report title, no other cell of the sweep.
 
 from __future__ import annotations
 
-from pydantic import Field
+from collections.abc import Callable
+from typing import Any
+
+from pydantic import Field, model_serializer
 
 from .air import Air
 from .contact import Contact
@@ -22,6 +25,7 @@ from .sections import (
     Section,
     Sheet,
     Thickness,
+    without_empty,
 )
 from .specimen import Specimen
 
@@ -68,3 +72,10 @@ class ResponseTask(_Task):
     dynamics: Dynamics
     air: Air
     linear_directions: tuple[str, ...] = Field((), strict=False)
+    one_sided: tuple[str, ...] = Field((), strict=False)
+
+    @model_serializer(mode="wrap")
+    def _without_empty_list(
+        self, values_of: Callable[[ResponseTask], dict[str, Any]]
+    ) -> dict[str, Any]:
+        return without_empty(self, values_of(self), "one_sided")

@@ -4,6 +4,10 @@ from dataclasses import dataclass
 
 from foilstudy.base.registry import Choice, Registry
 
+CLOSED_CONTACTS = ("normal", "rigid", "stuck")
+"""What closed contacts may do in a small motion beside opening, see
+`measure.stiffness.contacts.ContactBracket`."""
+
 
 @dataclass(frozen=True)
 class ReductionChoice(Choice):

@@ -15,6 +15,7 @@ import numpy as np
 import scipy.sparse as sparse
 
 from foilstudy.base.errors import Refusal
+from foilstudy.measure.choices import CLOSED_CONTACTS
 from foilstudy.measure.stiffness.condensation import InterfaceSystem, condense
 from foilstudy.measure.stiffness.directional import fixed_stiffness
 from foilstudy.measure.stiffness.rings import Rings
@@ -25,7 +26,7 @@ __all__ = ["CONTACT_SPRINGS", "ContactBracket", "Touching", "contact_bracket", "
 _RIGID = 100.0
 """Stiffness of a rigid spring relative to E t/(1 - nu^2)."""
 
-CONTACT_SPRINGS = ("ignored", "normal", "rigid", "stuck")
+CONTACT_SPRINGS = ("ignored", *CLOSED_CONTACTS)
 """What closed contacts may do in a small motion, see `ContactBracket`."""
 
 

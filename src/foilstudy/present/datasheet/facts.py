@@ -25,6 +25,15 @@ __all__ = ["Bands", "Direction", "LinkFacts", "Value", "link_facts"]
 LINEAR_AMPLITUDE = "amplitude_1_percent"
 """Variable of a cube with the amplitude at which the stiffness has changed by 1 %."""
 
+BESIDE = {
+    "stiffness_contacts_stuck": "closed contacts stuck",
+    "true_stiffness": "as it stands, with its stresses",
+    "stiffness_loading": "as it stands, loaded further",
+    "stiffness_unloading": "as it stands, unloaded",
+}
+"""Variables of a cube with another static stiffness of a direction, where it holds them, and what
+they are of."""
+
 
 @dataclass(frozen=True)
 class Value:
@@ -107,6 +116,8 @@ class Direction:
     curves : ndarray of complex, shape (realisations, f)
         Transfer stiffness, N/m; NaN where it is not valid.
     bands : Bands
+    beside : dict of str to Value
+        Other static stiffnesses on the mesh that was crumpled, by what they are of, N/m.
     """
 
     name: str
@@ -117,6 +128,7 @@ class Direction:
     amplitude: Value | None
     curves: np.ndarray
     bands: Bands
+    beside: dict[str, Value]
 
 
 @dataclass(frozen=True, eq=False)
@@ -235,6 +247,13 @@ def _direction(cell: xr.Dataset, name: str, trust: Trust, counted: np.ndarray) -
         amplitude,
         curves,
         Bands.of(cell["frequency"].to_numpy(), curves),
+        {
+            words: value
+            for variable, words in BESIDE.items()
+            if variable in cell
+            for value in (Value.of(_by_seed(good(cell, variable, direction=name))),)
+            if value.known
+        },
     )
 
 

@@ -155,6 +155,8 @@ def _static_rows(facts: LinkFacts) -> Iterator[_Row]:
     for each in facts.directions:
         best = each.limit if each.limit.known else each.static
         yield _row(f"{each.name}, N/m", best, percent(each.mesh_error), _amplitude(each, facts))
+        for words, value in each.beside.items():
+            yield _row(f"{each.name}, {words}", value)
     for name, value in facts.motions.items():
         yield _row(_MOTIONS[name], value)
 
@@ -194,6 +196,8 @@ def _static_words(facts: LinkFacts) -> str:
         f"Axial and radial: {where}; radial is the mean of x and y. The six motions below them: on "
         "the mesh on which they crumpled, about the centre of the ring, the other ring held."
     )
+    if any(each.beside for each in facts.directions):
+        text += " What stands below axial and radial: on that mesh, too."
     if all(each.amplitude is None for each in facts.directions):
         text += " The amplitude at which the stiffness has changed by 1 % was not computed."
     return text

@@ -34,6 +34,7 @@ from foilstudy.present.report import (
     mesh,
     modes,
     prestress,
+    small_motions,
     true_state,
     viewer,
 )
@@ -145,6 +146,7 @@ def _content(files: StudyFiles, folder: Path) -> dict:
     chosen = viewer.choose_shapes(files.crumple_paths)
     shapes = viewer.viewer_data(chosen, files.response_paths)
     script = "".join((TEMPLATES / name).read_text("utf-8") for name in SCRIPTS)
+    bracket_title, bracket_picture = small_motions.bracket_picture(cube)
     said = {
         "stiffness_words": findings.stiffness_findings(summary),
         "fit_words": laws.fit_findings(read_laws),
@@ -188,6 +190,13 @@ def _content(files: StudyFiles, folder: Path) -> dict:
         "prestress_rows": prestress.prestress_rows(cube, variability),
         "relaxed_words": prestress.relaxed_findings(cube),
         "relaxed_rows": prestress.relaxed_rows(cube),
+        "secant_words": small_motions.secant_findings(cube),
+        "secant_rows": small_motions.secant_rows(cube),
+        "bracket_words": small_motions.bracket_findings(cube),
+        "bracket_rows": small_motions.bracket_rows(cube),
+        "bracket_kinds": small_motions.WORDS,
+        "bracket_title": bracket_title,
+        "bracket_picture": bracket_picture and _data_address(bracket_picture, "svg+xml"),
         "bend_words": laws.bend_sentence(read_laws),
         "mesh": mesh_errors,
         "share_words": mesh.share_sentence(config),

@@ -6,12 +6,14 @@ Time is a sum of power laws, each with its reason:
   the elements as they leave the caches, and one factorisation when it settles;
 - contact costs the more, the more there is that touches, which grows with the overlength;
 - foil that may yield has its layers brought up to date in every step;
-- foil that is more than elastic is reduced twice, stress-free and as it stands;
+- foil that is more than elastic is reduced twice, stress-free and as it stands, and once more for
+  each thing that its closed contacts may do;
 - the relaxation takes the more steps, the thinner the foil is against its radius; the ramp takes
   the steps it is told to take;
 - a static stiffness costs a factorisation, on every mesh of the ladder: twice on the mesh of the
   crumple (stress-free and pre-stressed) and on the first refinement (corner and staggered element);
-- the amplitude at which the stiffness has changed takes so many of these a motion of the ring;
+- the amplitude at which the stiffness has changed takes so many of these a motion of the ring, and
+  the secants one way and the other a few;
 - where an error of it is demanded, the ladder ends on the first mesh that meets it, of which the
   element size over sqrt(R t) says most (`foilstudy.model.mesh_size`);
 - a reduction costs a factorisation and the projection on its coordinates, elements times their
@@ -84,6 +86,7 @@ class CostModel:
         2.2  # of the time of a step, for each unit of overlength, where parts may touch
     )
     sweep: float = 25  # static stiffnesses until a motion of the ring has changed it by 1 %
+    push: float = 8.5  # static stiffnesses for the secants of a motion of the ring, both ways
     flow: float = 0.00034  # seconds of a step more for a thousand elements that may yield
     start: float = 3.47  # seconds until the first job starts, and of Snakemake in all
 
@@ -109,6 +112,11 @@ class CostModel:
         """Time of the sweeps along directions; the radial one has two axes."""
         motions = sum(_SWEPT[direction] for direction in directions)
         return motions * self.sweep * self.solve_seconds(elements)
+
+    def secant_seconds(self, elements: float, directions: Sequence[str]) -> float:
+        """Time of the secants along directions, one way and the other."""
+        motions = sum(_SWEPT[direction] for direction in directions)
+        return motions * self.push * self.solve_seconds(elements)
 
     def reduced_coordinates(self, slenderness: float, band_hz: float) -> float:
         """Coordinates of the reduced model of a foil of R/t, up to the end of the band."""
@@ -272,7 +280,8 @@ def _configuration(study: StudyConfig, cell: Cell, model: CostModel) -> Expected
         "crumple": crumpling,
         "response": model.static_seconds(meshes)
         + model.sweep_seconds(elements, study.amplitude.directions)
-        + dynamic * (2 if study.beyond_elastic else 1),
+        + model.secant_seconds(elements, study.stiffness.one_sided)
+        + dynamic * (1 + study.beyond_elastic + len(study.dynamics.contacts)),
     }
     if relaxed:
         seconds["refine"] = sum(

@@ -61,9 +61,36 @@ def _contact_stiffness(words: str) -> Declared:
     return Declared("N/m", words, _DIRECTION, only="touching")
 
 
+def _one_sided(words: str) -> Declared:
+    words = f"secant stiffness of the foil as it stands, other motions held, {words}"
+    return Declared("N/m", words, _DIRECTION, only="one_sided")
+
+
+def _vibrating(kind: str, words: str) -> dict[str, Declared]:
+    """Dynamic stiffness and eigenfrequencies with closed contacts of a kind."""
+    only, of = f"vibrating_{kind}", f"closed contacts {words}"
+    return {
+        f"dynamic_stiffness_contacts_{kind}_re": Declared(
+            "N/m", f"dynamic stiffness, {of}, real part", _DYNAMIC, only=only
+        ),
+        f"dynamic_stiffness_contacts_{kind}_im": Declared(
+            "N/m", f"dynamic stiffness, {of}, imaginary part", _DYNAMIC, only=only
+        ),
+        f"eigenfrequency_contacts_{kind}": Declared(
+            "Hz", f"eigenfrequency, rings clamped, {of}", ("mode",), only=only
+        ),
+    }
+
+
 def _record_only(units: str, words: str, dims: tuple[str, ...]) -> Declared:
     return Declared(units, words, dims, in_cube=False)
 
+
+_CLOSED = {
+    "normal": "springs along their gaps, as the barrier",
+    "rigid": "rigid along their gaps",
+    "stuck": "rigid in all directions",
+}
 
 QUANTITIES: dict[str, Declared] = {
     "static_stiffness": Declared("N/m", "static stiffness, other motions held", _DIRECTION),
@@ -75,9 +102,9 @@ QUANTITIES: dict[str, Declared] = {
         "N/m", "estimated mesh error of static_stiffness_converged", _DIRECTION
     ),
     "stiffness_contacts_ignored": _contact_stiffness("as if they were open"),
-    "stiffness_contacts_normal": _contact_stiffness("springs along their gaps, as the barrier"),
-    "stiffness_contacts_rigid": _contact_stiffness("rigid along their gaps"),
-    "stiffness_contacts_stuck": _contact_stiffness("rigid in all directions"),
+    **{f"stiffness_contacts_{kind}": _contact_stiffness(words) for kind, words in _CLOSED.items()},
+    "stiffness_loading": _one_sided("the top ring pushed down, radially along x and y"),
+    "stiffness_unloading": _one_sided("the top ring moved the other way"),
     "static_refinements": Declared("1", "refinements of the shape that these took"),
     "prestressed_stiffness": Declared(
         "N/m", "static stiffness at the stressed equilibrium, other motions held", _DIRECTION
@@ -134,6 +161,11 @@ QUANTITIES: dict[str, Declared] = {
     "dynamic_stiffness_re": Declared("N/m", "dynamic stiffness, real part", _DYNAMIC),
     "dynamic_stiffness_im": Declared("N/m", "dynamic stiffness, imaginary part", _DYNAMIC),
     "eigenfrequency": Declared("Hz", "eigenfrequency, rings clamped", ("mode",)),
+    **{
+        name: what
+        for kind, words in _CLOSED.items()
+        for name, what in _vibrating(kind, words).items()
+    },
     "first_eigenfrequency": Declared("Hz", "first eigenfrequency, rings clamped"),
     "vacuum_first_eigenfrequency": Declared(
         "Hz", "first eigenfrequency without the air, rings clamped", only="in_air"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -24,12 +25,16 @@ from foilstudy.measure.verdicts import Evidence, flags, verdicts
 from foilstudy.model.patch import Patch
 from foilstudy.pipeline.amplitude.sweep import linear_amplitude
 from foilstudy.pipeline.crumpled import Crumpled
+from foilstudy.pipeline.one_sided import one_sided
 from foilstudy.pipeline.structures import in_air, stress_free_structure
 from foilstudy.pipeline.true_state import true_state
-from foilstudy.pipeline.vibration import surface_modes, vibration_of
+from foilstudy.pipeline.vibration import Vibration, surface_modes, vibration_of
 from foilstudy.study.sweep.origins import read_crumple, response_origin
 from foilstudy.study.sweep.outcome import Outcome, Values, outcome_of
 from foilstudy.study.sweep.quantities import quantities
+
+_OF_CONTACTS = ("dynamic_stiffness_re", "dynamic_stiffness_im", "eigenfrequency")
+"""What of the dynamics is measured with closed contacts, too."""
 
 
 def respond_job(task: ResponseTask, crumple_path: Path, path: Path) -> None:
@@ -52,6 +57,7 @@ def respond_job(task: ResponseTask, crumple_path: Path, path: Path) -> None:
         missing = (
             _without_prestress(values),
             _without_amplitude(task, values),
+            _without_secants(task, values),
             _beyond_validity(task, values),
             _unstable(values),
         )
@@ -105,6 +111,20 @@ def _without_amplitude(task: ResponseTask, values: dict) -> str:
     )
 
 
+def _without_secants(task: ResponseTask, values: dict) -> str:
+    secants = zip(
+        DIRECTIONS, values.get("stiffness_loading", ()), values.get("stiffness_unloading", ())
+    )
+    without = [
+        direction
+        for direction, *both in secants
+        if direction in task.one_sided and np.isnan(both).any()
+    ]
+    if not without:
+        return ""
+    return f"no stiffness of {' and '.join(without)} loading and unloading, as the foil snaps"
+
+
 def _beyond_validity(task: ResponseTask, values: dict) -> str:
     """What to say of a reduced model that does not reach to the end of the band."""
     error, options = values["reduction_error"], task.dynamics
@@ -143,11 +163,14 @@ def _measured(task: ResponseTask, crumpled: Crumpled) -> Values:
     with measured() as static:
         structure = stress_free_structure(crumpled)
         values = _static(crumpled, structure, task) | _amplitudes(crumpled, task)
+        values |= _secants(crumpled, task)
     with measured() as dynamic:
         options, air = dynamics_of(task.dynamics), air_of(task.air)
         if task.air.kind != "none":
             values |= _without_air(structure, crumpled)
         values |= _dynamic(in_air(crumpled, structure, air), options, crumpled.patch)
+        if task.dynamics.contacts:
+            values |= _on_contacts(task.dynamics.contacts, crumpled, values, options, air)
         true = _true(crumpled, options, air) if crumpled.beyond_elastic else {}
         # what is true of such a foil is pre-stressed stiffness, and need not be measured twice
         same = true["true_stiffness"] if true else _prestressed(crumpled)
@@ -217,6 +240,50 @@ def _amplitudes(crumpled: Crumpled, task: ResponseTask) -> Values:
     return {"amplitude_1_percent": np.array(found)}
 
 
+def _secants(crumpled: Crumpled, task: ResponseTask) -> Values:
+    """Stiffness one way and the other, in the directions that the task asks for."""
+    if not task.one_sided:
+        return {}
+    found = np.full((2, len(DIRECTIONS)), np.nan)
+    for k, direction in enumerate(DIRECTIONS):
+        if direction in task.one_sided:
+            found[:, k] = _both_ways(crumpled, direction)
+    return {"stiffness_loading": found[0], "stiffness_unloading": found[1]}
+
+
+def _both_ways(crumpled: Crumpled, direction: str) -> tuple[float, float]:
+    """NaN where the tangent is singular: the other numbers need none of it."""
+    try:
+        secants = one_sided(crumpled, direction)
+    except SolveError as error:
+        print(f"no {direction} secants: {error}")
+        return np.nan, np.nan
+    return secants.loading, secants.unloading
+
+
+def _on_contacts(
+    kinds: Sequence[str],
+    crumpled: Crumpled,
+    opened: Values,
+    options: DynamicsOptions,
+    air: Air,
+) -> Values:
+    """Dynamics free of stress with closed contacts of some kinds, see `ContactBracket`.
+
+    Where none is closed they are those with open ones.
+    """
+    closed = any(each.closed_at(crumpled.points) for each in crumpled.contacts())
+    values: Values = {}
+    for kind in kinds:
+        found = opened
+        if closed:
+            found = _dynamic_stiffness(crumpled.vibration(options, air, kind))
+        for name in _OF_CONTACTS:
+            root = name.removesuffix("_re").removesuffix("_im")
+            values[f"{root}_contacts_{kind}{name.removeprefix(root)}"] = found[name]
+    return values
+
+
 def _bracket(crumpled: Crumpled) -> Values:
     bracket = crumpled.contact_bracket()
     return {f"stiffness_contacts_{kind}": getattr(bracket, kind) for kind in CONTACT_SPRINGS}
@@ -225,18 +292,24 @@ def _bracket(crumpled: Crumpled) -> Values:
 def _dynamic(structure: Structure, options: DynamicsOptions, patch: Patch) -> Values:
     vibration = vibration_of(structure, options)
     model = vibration.model
-    values: Values = {
+    values = _dynamic_stiffness(vibration) | {
         "frequency": vibration.frequencies,
-        "dynamic_stiffness_re": vibration.dynamic_stiffness.real,
-        "dynamic_stiffness_im": vibration.dynamic_stiffness.imag,
         "reduced_coordinates": float(model.size),
         "reduction_error": model.error_estimate,
         "valid_to_frequency": model.valid_to_hz,
         "mode_count": vibration.mode_count,
-        "eigenfrequency": vibration.eigenfrequencies,
         "first_eigenfrequency": vibration.eigenfrequencies[0],
     }
     if vibration.mode_shapes.shape[1]:
         shapes = surface_modes(patch, vibration.mode_shapes)
         values["mode_shape"] = shapes.astype(np.float32)
     return values
+
+
+def _dynamic_stiffness(vibration: Vibration) -> Values:
+    """By the names of `_OF_CONTACTS`."""
+    return {
+        "dynamic_stiffness_re": vibration.dynamic_stiffness.real,
+        "dynamic_stiffness_im": vibration.dynamic_stiffness.imag,
+        "eigenfrequency": vibration.eigenfrequencies,
+    }
