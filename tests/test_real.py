@@ -6,17 +6,23 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import xarray as xr
 
-from foilstudy.base.errors import ConfigError
+from foilstudy.base.cube import open_cube
+from foilstudy.base.errors import ConfigError, Refusal
 from foilstudy.base.reference import published
 from foilstudy.config import load_config
+from foilstudy.measure.verdicts import FAULTS
 from foilstudy.study.kernel.plan import Record
-from foilstudy.study.real import trial
+from foilstudy.study.real import beside, trial
+from foilstudy.study.real import words as words_module
+from foilstudy.study.real.beside import results
 from foilstudy.study.real.figures import chart
 from foilstudy.study.real.laws import fit, found, levels
 from foilstudy.study.real.plan import STUDY
-from foilstudy.study.real.settings import FOLDER, Ladder, ladder
+from foilstudy.study.real.settings import FOLDER, Ladder, cube_of, ladder
 from foilstudy.study.real.tables import laws, page, trials
+from foilstudy.study.real.words import words
 from foilstudy.study.settings import read_settings
 
 CASES = STUDY.parts[0].cases
@@ -78,7 +84,8 @@ def test_one_thickness_makes_no_law():
 
 
 def test_laws_are_held_against_the_measured_one(outcome):
-    radial = [law for law in outcome.laws if law.direction == "radial" and law.of]
+    models = {step.name for step in LADDER.steps}
+    radial = [law for law in outcome.laws if law.direction == "radial" and law.step in models]
     assert {law.step for law in radial} == {step.name for step in LADDER.steps}
     for law in radial:
         assert law.state == "stress-free"  # no tangent above is positive
@@ -99,7 +106,8 @@ def test_tables_and_chart_show_every_model(outcome):
     for step in LADDER.steps:
         assert step.words in page(outcome)
     labels = {text.get_text() for text in chart(outcome).axes[0].get_yticklabels()}
-    assert labels == {"published simulation", *(step.words for step in LADDER.steps)}
+    beside = [entry.words for entry in LADDER.beside]
+    assert labels == {"published simulation", *(step.words for step in LADDER.steps), *beside}
 
 
 @pytest.mark.parametrize("step", LADDER.steps, ids=lambda step: step.name)
@@ -130,6 +138,7 @@ def test_another_content_is_another_case():
         ("after: elastic", "after: rubber", "comes after 'rubber', which is none of the steps"),
         ("name: plastic", "name: elastic", "two steps are called 'elastic'"),
         ("seeds: 2", "seeds: 0", "seeds: "),
+        ("name: elastic_resolved", "name: elastic", "two models are called 'elastic'"),
     ],
 )
 def test_a_wrong_file_is_refused_in_a_sentence(tmp_path, old, new, words):
@@ -137,6 +146,47 @@ def test_a_wrong_file_is_refused_in_a_sentence(tmp_path, old, new, words):
     path.write_text((FOLDER / "real.yaml").read_text().replace(old, new, 1))
     with pytest.raises(ConfigError, match=words):
         read_settings(path, Ladder)
+
+
+def test_studies_stand_beside_the_models_as_their_cubes_have_them(outcome):
+    for entry in LADDER.beside:
+        values = results(entry)
+        assert {made.content for made in values} == set(entry.studies)
+        cubes = {name: open_cube(cube_of(name)) for name in entry.studies}
+        for made, result in values.items():
+            cell = cubes[made.content].sel(thickness=made.thickness_um, seed=made.seed)
+            cell = cell.isel(overlength=list(cell["reference_height"]).index(made.height_mm))
+            limit = cell["static_stiffness_converged"].values  # not that of the crumpled mesh
+            assert result["static_stiffness"] == pytest.approx(limit, rel=1e-12)
+        laws_of = [law for law in outcome.laws if law.step == entry.name]
+        assert {law.direction for law in laws_of} == {"axial", "radial"}
+        assert all(law.of == len(values) for law in laws_of)
+
+
+def test_a_realisation_with_a_fault_and_a_study_that_is_not_there_do_not_count(
+    tmp_path, monkeypatch
+):
+    entry = LADDER.beside[0]
+    with xr.open_dataset(cube_of(entry.studies[0])) as cube:
+        spoilt = cube.load()
+    (folder := tmp_path / entry.studies[0]).mkdir()
+    monkeypatch.setattr(beside, "cube_of", lambda study: tmp_path / study / "cube.nc")
+    with pytest.raises(Refusal, match="run that study, or remove the step"):
+        results(entry)
+    bit = spoilt["verdict"].attrs["flag_meanings"].split().index(FAULTS[0])
+    spoilt["verdict"][0, 0, 0] = 1 << bit
+    spoilt["status"][0, 1, 0] = "failed"
+    spoilt.to_netcdf(folder / "cube.nc")
+    assert len(results(entry)) == spoilt["status"].size - 2
+
+
+def test_what_is_shown_depends_on_the_cubes_beside(tmp_path, monkeypatch):
+    before = words("real")
+    assert all(len(before[entry.name][1]) > 8 for entry in LADDER.beside)
+    monkeypatch.setattr(words_module, "cube_of", lambda study: tmp_path / study / "cube.nc")
+    after = words("real")
+    changed = {name for name in before if before[name] != after[name]}
+    assert changed == {entry.name for entry in LADDER.beside}
 
 
 def test_a_trial_is_a_study_of_one_foil(monkeypatch):

@@ -15,6 +15,7 @@ from foilstudy.measure.stiffness.bounds import bound_of_any_shape
 from foilstudy.measure.stiffness.directional import DIRECTIONS
 from foilstudy.study.kernel.plan import Records
 from foilstudy.study.published import GAP_HEIGHT, foil
+from foilstudy.study.real.beside import results as results_beside
 from foilstudy.study.real.plan import NAME
 from foilstudy.study.real.settings import Trial, ladder
 
@@ -140,8 +141,10 @@ def _measured(direction: str, overlength, thickness):
 
 
 def _laws(results: dict[Trial, dict]) -> Iterator[Law]:
-    for step in ladder(NAME).steps:
-        trials = {t: r for t, r in results.items() if t.step == step.name}
+    models = [(step, results) for step in ladder(NAME).steps]
+    models += [(entry, results_beside(entry)) for entry in ladder(NAME).beside]
+    for step, measured in models:
+        trials = {t: r for t, r in measured.items() if t.step == step.name}
         for state, quantities in STATES.items():
             for k, direction in enumerate(DIRECTIONS):
                 values = {trial: number(result, quantities, k) for trial, result in trials.items()}

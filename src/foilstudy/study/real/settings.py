@@ -76,6 +76,22 @@ class Step(Section):
     seeds: int | None = pydantic.Field(None, ge=1)
 
 
+class Beside(Section):
+    """Studies of the same foil that the laws of the models stand beside.
+
+    Attributes
+    ----------
+    name, words : str
+        As of a step.
+    studies : tuple of str
+        Names; their cubes make up one model.
+    """
+
+    name: str = pydantic.Field(pattern=r"^[A-Za-z0-9_]+$")
+    words: str
+    studies: tuple[str, ...] = pydantic.Field(**_List, min_length=1)
+
+
 class Ladder(Section):
     """All models, and the foils that they are computed for."""
 
@@ -84,6 +100,7 @@ class Ladder(Section):
     seeds: int = pydantic.Field(ge=1)
     sections: Sections
     steps: tuple[Step, ...] = pydantic.Field(**_List)
+    beside: tuple[Beside, ...] = pydantic.Field((), **_List)
 
     @pydantic.model_validator(mode="after")
     def _in_order(self) -> Ladder:
@@ -97,6 +114,10 @@ class Ladder(Section):
                         f"step {step.name!r} {word} {other!r}, which is none of the steps above it"
                     )
             known.add(step.name)
+        for entry in self.beside:
+            if entry.name in known:
+                raise ValueError(f"two models are called {entry.name!r}; rename one")
+            known.add(entry.name)
         foils = {step.name: set(self._foils(step)) for step in self.steps}
         for step in self.steps:
             if step.beside and not foils[step.name] <= foils[step.beside]:
@@ -139,6 +160,11 @@ def trials(study: str) -> tuple[Trial, ...]:
     """All trials of a side study; none in an installed package."""
     models = ladder(study)
     return () if models is None else tuple(models.trials())
+
+
+def cube_of(study: str) -> Path:
+    """Where a study of this repository has its cube."""
+    return FOLDER.parent / "results" / study / "cube.nc"
 
 
 def by_foil(measured: Mapping[Trial, Measured]) -> dict[tuple[str, int, int], list[Measured]]:

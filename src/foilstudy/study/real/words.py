@@ -2,11 +2,24 @@
 
 from __future__ import annotations
 
-from foilstudy.study.real.settings import ladder
+from foilstudy.base.manifest import noted_origin
+from foilstudy.study.real.settings import cube_of, ladder
 
 
 def words(study: str) -> dict[str, list[str | None]]:
-    """By step, its words for people and what it stands beside."""
+    """By step, its words for people and what it stands beside.
+
+    Of studies that stand beside the models, their words and what their cubes are noted to be.
+    """
     models = ladder(study)
-    steps = () if models is None else models.steps
-    return {step.name: [step.words, step.beside] for step in steps}
+    if models is None:
+        return {}
+    cubes = {
+        entry.name: [entry.words, *(_content(name) for name in entry.studies)]
+        for entry in models.beside
+    }
+    return {step.name: [step.words, step.beside] for step in models.steps} | cubes
+
+
+def _content(study: str) -> str:
+    return " ".join(noted_origin(cube_of(study).parent).sources)
