@@ -25,6 +25,7 @@ PAGES = (
     "docs/comparison.md",
     "docs/method.md",
     "docs/real-foil.md",
+    "docs/speed.md",
     "docs/specimen.md",
     "docs/tradeoff.md",
 )

@@ -1,5 +1,6 @@
 """What stands in the blocks of numbers of the pages, see docs/page_numbers.py."""
 
+from page_blocks.aims import aims
 from page_blocks.buys import buys
 from page_blocks.laws import differences, dimensionless, headline, law, summary, thin, trust
 from page_blocks.localisation import correlation, followed, localisation
@@ -27,7 +28,7 @@ BLOCKS = {
         headline, law, differences, dimensionless, summary, trust, beside, simulation, experiment,
         bound, prestress, variability, dynamics, eigenfrequency, shapes, steps, costs, tradeoff,
         explanation, influences, thin, whole, accuracy, buys, localisation, correlation, ramps,
-        followed,
+        followed, aims,
     )
 }  # fmt: skip
 """Functions of studies that yield lines, by the name of their block."""
