@@ -183,7 +183,7 @@ VERDICTS = (
     ),
     Verdict(
         "beyond_yield",
-        "parts of the surface are beyond the yield stress, as the model is elastic",
+        "parts of the surface are beyond the yield stress: yielded, where the foil may yield",
         lambda e: e.beyond_yield_share > 0,
     ),
     Verdict(
