@@ -64,6 +64,10 @@ def results(tmp_path_factory):
     plain = full["static_stiffness_converged"]
     given = {"true_stiffness": plain / 2, "stiffness_contacts_stuck": 2 * plain}
     make_study(folder, "real_resolved", full.assign(given))
+    thin = make_cube((130.0,), (135.0, 150.0, 170.0), seeds=1, cv=ten_percent)
+    plain = thin["static_stiffness_converged"]
+    given = {"true_stiffness": plain / 2, "stiffness_contacts_stuck": 2 * plain}
+    make_study(folder, "real_resolved_thin", thin.assign(given))
     tables = ("tradeoff/tradeoff.md", "real/laws.md", "truth/influences.md", "accuracy/accuracy.md")
     for table in tables:
         (folder / table).parent.mkdir()
@@ -221,6 +225,18 @@ def test_the_whole_model_stands_beside_elastic_foil_and_the_measured_law(results
     exponents = cells(laws)
     assert len(exponents) == 2 * 4 and {row[4] for row in exponents} == {"60 of 60", "20 of 20"}
     assert float(exponents[3][2].split()[0]) == pytest.approx(LAW["axial"][1], abs=0.1)
+
+
+def test_thinner_foil_by_the_whole_model_is_in_its_laws_where_it_was_made(results):
+    names = "real_resolved", "resolved", "real_resolved_thin"
+    levels, laws = block("whole", *studies(results, *names)).split("\n\n")
+    axial, radial = np.split(np.array(cells(levels)), 2)
+    for rows in (axial, radial):
+        assert list(rows[:, 1]) == ["130"] * 4 + ["250"] * 4 + ["500"] * 4
+        assert (rows[1:4, 6:] == "–").all() and "–" not in np.delete(rows, [1, 2, 3], axis=0)
+        stuck, plain = rows[2, 3:6].astype(float), rows[1, 3:6].astype(float)
+        assert stuck / plain == pytest.approx(2.0, rel=0.1)
+    assert {row[4] for row in cells(laws)} == {"90 of 90", "23 of 23"}
 
 
 def test_laws_of_a_whole_study_stand_on_the_mesh_of_the_crumple_and_with_stress(results):
