@@ -159,6 +159,15 @@ def test_check_says_that_contacts_rub(tmp_path, capsys):
     assert "between parts of the foil, friction of 0.3\n" in spoken(capsys, "check", path)
 
 
+def test_check_says_which_small_motions_are_asked_for(tmp_path, capsys):
+    path = tmp_path / "study.yaml"
+    asked = {"stiffness": {"one_sided": ["axial"]}, "dynamics": {"contacts": ["normal", "stuck"]}}
+    path.write_text(yaml.safe_dump(changed(contact={"kind": "barrier"}, **asked)))
+    text = spoken(capsys, "check", path)
+    assert "; loading and unloading axially\n" in text
+    assert "; closed contacts normal, stuck, too\n" in text
+
+
 def test_check_looks_for_measurements_where_a_run_does(tmp_path, monkeypatch):
     path = tmp_path / "study.yaml"
     runs = [{"file": "no-such-run.csv", "thickness_um": 500, "height_mm": 170}]

@@ -94,16 +94,19 @@ def _resolved(study: StudyConfig) -> Iterator[tuple[str, str]]:
     demand = (
         "" if stiffness.error_percent is None else f"to {stiffness.error_percent:g} %, at most "
     )
+    sides = " and ".join(f"{direction}ly" for direction in stiffness.one_sided)
     yield (
         "stiffness",
         f"shape refined {demand}{times(stiffness.refinements)}, equilibrium refined "
-        f"{times(stiffness.relaxed_refinements)}",
+        f"{times(stiffness.relaxed_refinements)}"
+        + (f"; loading and unloading {sides}" if sides else ""),
     )
     yield (
         "dynamics",
         f"{dynamics.reduction} to {dynamics.tolerance:g}, {dynamics.frequencies} frequencies from "
         f"{dynamics.shown_min_hz:g} to {dynamics.shown_max_hz:g} Hz, {dynamics.damping} damping of "
-        f"{dynamics.damping_percent:g} %",
+        f"{dynamics.damping_percent:g} %"
+        + (f"; closed contacts {', '.join(dynamics.contacts)}, too" if dynamics.contacts else ""),
     )
     if study.export.formats:
         yield "export", ", ".join(study.export.formats)
