@@ -212,10 +212,11 @@ def test_jobs_end_with_a_killed_worker(tmp_path, number):
 
 # A worker whose machine has no memory for a process, or no descriptor to watch one.
 FAULTY = """
-import os, sys
+import os, sys, time
 from foilstudy.study.worker import work
 def fail(process=None):
     if process != os.getpid():
+        time.sleep(0.5)  # in which a child that does not wait says who it is
         raise OSError("the machine is full")
     return watched(process)
 watched = os.pidfd_open

@@ -29,6 +29,8 @@ from foilstudy.study.sweep.origins import remember_codes
 from foilstudy.study.sweep.warmup import compile_kernels
 
 _STANDARD_STREAMS = 3
+_GO = signal.SIGUSR1
+"""Tells a child that somebody watches it."""
 
 
 def work(again: int, contact: bool = False) -> None:
@@ -98,6 +100,8 @@ class _Worker:
         # Ctrl-C reaches the whole group: it ends the study, and that ends the worker.
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # removes the socket on its way
+        # children begin with it blocked: it may come before they wait for it
+        signal.pthread_sigmask(signal.SIG_BLOCK, {_GO})
         while True:
             for key, _ in self._selector.select():
                 key.data()
@@ -156,15 +160,17 @@ def _started(client: socket.socket) -> _Job:
         for stream in streams:
             os.close(stream)
     try:
-        return _Job(process, os.pidfd_open(process), client)
+        ended = os.pidfd_open(process)
     except OSError:
         os.kill(process, signal.SIGKILL)
         os.waitpid(process, 0)
         raise
+    os.kill(process, _GO)
+    return _Job(process, ended, client)
 
 
 def _forked(order: dict, streams: list[int]) -> int:
-    """Process number of a new child that carries out the order."""
+    """Process number of a new child that carries out the order once it is told to."""
     gc.freeze()  # else a collection in the child would write to every page, and so copy it
     worker = os.getpid()
     process = os.fork()
@@ -173,6 +179,8 @@ def _forked(order: dict, streams: list[int]) -> int:
         try:
             ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG: when the worker ends
             if os.getppid() == worker:
+                signal.sigwait({_GO})
+                signal.pthread_sigmask(signal.SIG_UNBLOCK, {_GO})
                 status = _carried_out(order, streams)
         finally:
             os._exit(status)  # past the worker's own clean-up
