@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 import yaml
 
 from foilstudy.base.cube import open_cube
@@ -17,7 +18,13 @@ from foilstudy.present.datasheet.facts import link_facts
 from foilstudy.present.datasheet.page import write_datasheet
 from foilstudy.present.files import StudyFiles
 from foilstudy.present.report import write_report
-from foilstudy.present.report.small_motions import bracket_rows, secant_rows
+from foilstudy.present.report.small_motions import (
+    bracket_findings,
+    bracket_picture,
+    bracket_rows,
+    secant_findings,
+    secant_rows,
+)
 from foilstudy.present.statistics.tables import write_tables
 from foilstudy.study.sweep.crumple import crumple_job
 from foilstudy.study.sweep.cube import gather, has
@@ -176,19 +183,69 @@ def test_the_page_and_the_data_sheet_show_the_bracket_and_both_secants(touching,
     write_tables(files.cube, files.folder)
     page = write_report(files, tmp_path / "report.html").read_text("utf-8")
     assert "In 1 of 1 configuration parts of the foil touch" in page
-    for words in ("closed as springs", "Dynamic stiffness by what closed contacts do", "unloading"):
+    for words in (
+        "closed as springs",
+        "Dynamic stiffness by what closed contacts do",
+        "apart, or the other way",
+    ):
         assert words in page
     cube = open_cube(tmp_path / "cube.nc")
     (row,) = bracket_rows(cube)
-    assert row.stiffness["axial", "stuck"] == cube["stiffness_contacts_stuck"].squeeze()[0]
-    assert (row.touching, row.n, row.pairs) == (1, 1, cube["contact_pairs"])
+    stuck, opened = (cube[f"stiffness_contacts_{kind}"].squeeze() for kind in ("stuck", "ignored"))
+    assert row.stiffness["axial", "stuck"] == stuck[0]
+    assert row.factor["radial"] == stuck[1] / opened[1]
+    assert (row.touching, row.n) == (1, 1)
+    assert row.contacts == cube["contact_pairs"] + cube["contact_knots_at_rings"]
     assert [each.direction for each in secant_rows(cube)] == ["axial"]
     axial, radial = link_facts(cube).directions
-    stands = cube["true_stiffness"].squeeze()  # with its stresses it may resist nothing
-    assert len(axial.beside) == (4 if stands[0] > 0 else 1)
-    assert len(radial.beside) == (2 if stands[1] > 0 else 1)
+    assert set(radial.beside) == {"contacts open", "contacts stuck", "as it stands"}
+    assert set(axial.beside) == {*radial.beside, "so, pushed together", "so, pulled apart"}
+    # of a negative one, too, as the page has it
+    (stands,) = (row.as_it_stands for row in secant_rows(cube))
+    assert axial.beside["as it stands"].interval.mean == pytest.approx(stands)
     write_datasheet(cube, tmp_path / "sheet.html")
-    assert "axial, closed contacts stuck" in (tmp_path / "sheet.html").read_text("utf-8")
+    assert "axial, contacts stuck, N/m" in (tmp_path / "sheet.html").read_text("utf-8")
+
+
+def altered(touching, folder, **values):
+    """The cube of the foil that touches, with other values of some quantities."""
+    study, results, _ = touching
+    gather(study, results, folder / "cube.nc")
+    cube = open_cube(folder / "cube.nc")
+    return cube.assign({k: xr.full_like(cube[k], 1.0) * np.array(v) for k, v in values.items()})
+
+
+def test_planes_alone_are_contact_and_no_contact_at_all_is_said(touching, tmp_path):
+    planes = altered(touching, tmp_path, contact_pairs=0.0, contact_knots_at_rings=40.0)
+    assert [row.contacts for row in bracket_rows(planes)] == [40.0]
+    nowhere = altered(touching, tmp_path, contact_pairs=0.0, contact_knots_at_rings=np.nan)
+    assert not bracket_rows(nowhere) and "in none of the shapes" in bracket_findings(nowhere)[0]
+    assert bracket_picture(nowhere) == ("", b"")
+
+
+def test_means_of_the_bracket_are_those_of_the_foils_that_touch(touching, tmp_path):
+    cube = altered(touching, tmp_path)
+    other = altered(
+        touching, tmp_path, contact_pairs=0.0, contact_knots_at_rings=np.nan,
+        stiffness_contacts_stuck=1.0, stiffness_contacts_ignored=1.0,
+    ).assign_coords(seed=[1])  # fmt: skip
+    (row,) = bracket_rows(xr.concat([cube, other], "seed", data_vars="all"))
+    (alone,) = bracket_rows(cube)
+    assert (row.touching, row.n) == (1, 2)
+    assert row.factor == alone.factor and row.stiffness == alone.stiffness
+
+
+def test_what_is_said_of_both_ways_follows_their_signs(touching, tmp_path):
+    ways = {"stiffness_loading": [900.0, np.nan], "stiffness_unloading": [2000.0, np.nan]}
+    positive = altered(touching, tmp_path, **ways, true_stiffness=[1000.0, 1.0])
+    assert (
+        "axially 0.90 times pushed together and 2.0 times pulled apart"
+        in secant_findings(positive)[-1]
+    )
+    negative = altered(touching, tmp_path, **ways, true_stiffness=[-1000.0, 1.0])
+    assert len(secant_findings(negative)) == 1 and secant_rows(negative)[0].as_it_stands == -1000
+    ways["stiffness_unloading"] = [np.nan, np.nan]
+    assert "No foil found" in secant_findings(altered(touching, tmp_path, **ways))[0]
 
 
 def test_where_nothing_touches_the_dynamic_bracket_costs_nothing(tmp_path, monkeypatch):
@@ -231,14 +288,18 @@ def test_what_is_not_asked_for_leaves_no_trace_in_tasks_and_cubes():
     assert dear > 2 * cheap
 
 
-def test_a_foil_that_snaps_has_no_secants_and_says_so(touching, tmp_path, monkeypatch):
+def test_what_cannot_be_measured_is_left_out_and_said(touching, tmp_path, monkeypatch):
     study, _, folder = touching
     monkeypatch.setattr(one_sided_module, "minimised", _singular)
+    monkeypatch.setattr(Crumpled, "vibration", _singular)
     (cell,) = study.cells()
     respond_job(study.response_task(cell), folder / "crumple.nc", tmp_path / "response.nc")
     values, attributes = read_record(tmp_path / "response.nc")
-    assert np.isnan(values["stiffness_loading"]).all() and attributes["status"] == "converged"
-    assert "no stiffness of axial loading and unloading" in attributes["message"]
+    assert attributes["status"] == "converged" and np.isfinite(values["static_stiffness"]).all()
+    for name in ("stiffness_loading", "dynamic_stiffness_contacts_stuck_re"):
+        assert np.isnan(values[name]).all()
+    assert "no stiffness of axial loading and unloading both" in attributes["message"]
+    assert "dynamic stiffness with closed contacts (normal, stuck) not" in attributes["message"]
 
 
 def _singular(*_):

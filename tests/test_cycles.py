@@ -46,6 +46,13 @@ def test_a_virgin_state_is_one_sided(virgin, shaken):
     assert max(old.dissipated) < 1e-3 * loading
 
 
+def test_a_foil_that_snaps_on_the_way_has_no_secant(virgin):
+    """Pulled straight it lets go more energy than the motion brings; pushed it does not."""
+    secants = one_sided(virgin, "axial", 1e-2)
+    assert secants.status == "snapped" and "another equilibrium" in secants.message
+    assert np.isnan(secants.unloading) and np.isfinite(secants.loading)
+
+
 def test_work_per_cycle_falls_until_the_foil_is_elastic(virgin, shaken):
     assert shaken.status == "converged", shaken.message
     assert 2 <= shaken.cycles == len(shaken.reactions) - 1

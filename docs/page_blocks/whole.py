@@ -10,15 +10,15 @@ import xarray as xr
 
 from foilstudy.base.reference import published
 from foilstudy.present.statistics.cells import Samples, good, realised, samples
-from foilstudy.present.statistics.powerlaw import AS_IT_STANDS, LIMIT, SIMULATED, fit_power_law
+from foilstudy.present.statistics.powerlaw import AS_IT_STANDS, SIMULATED, fit_power_law
 from page_blocks.study import DIRECTIONS, Study, rows
 
 STATES = {
-    "stress-free": SIMULATED[LIMIT],
+    "stress-free": SIMULATED["simulation"],
     "stress-free, contacts stuck": "stiffness_contacts_stuck",
     "as it stands": SIMULATED[AS_IT_STANDS],
 }
-"""Quantities by what they are called here."""
+"""Quantities by what they are called here, all on the mesh of the crumple."""
 
 
 def whole(study: Study, elastic: Study, *thinner: Study) -> Iterator[str]:

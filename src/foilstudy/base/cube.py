@@ -82,9 +82,11 @@ def open_cube(path: str | Path) -> xr.Dataset:
             f"{path} is a NetCDF file but not a cube of foilstudy; give the cube.nc of a study, "
             "not the record of one realisation."
         )
-    for name in [str(each)[: -len(_REAL)] for each in cube if str(each).endswith(_REAL)]:
+    for name in [str(each).removesuffix(_REAL) for each in cube if str(each).endswith(_REAL)]:
+        if f"{name}_im" not in cube:
+            continue
         real, imaginary = cube[f"{name}{_REAL}"], cube[f"{name}_im"]
-        words = real.attrs["long_name"].removesuffix(", real part")
-        whole = (real + 1j * imaginary).assign_attrs(units=real.attrs["units"], long_name=words)
+        words = real.attrs.get("long_name", "").removesuffix(", real part")
+        whole = (real + 1j * imaginary).assign_attrs(real.attrs | {"long_name": words})
         cube = cube.assign({name: whole}).drop_vars([f"{name}{_REAL}", f"{name}_im"])
     return cube

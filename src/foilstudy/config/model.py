@@ -346,7 +346,7 @@ class StudyConfig(Section):
 
     def _following_problems(self) -> Iterator[str]:
         """Small motions whose answer is known, as nothing yields or touches in them."""
-        if self.stiffness.one_sided and not self.beyond_elastic:
+        if self.stiffness.one_sided and not (self.yields or self.contact.kind != "none"):
             yield (
                 "stiffness.one_sided is given, but this foil is elastic and touches nothing, and "
                 "so is as stiff one way as the other; remove it, or set material.law: plastic."

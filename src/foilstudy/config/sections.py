@@ -8,7 +8,7 @@ path, because the reader of the message looks at a YAML file, not at this code.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import (
     BaseModel,
@@ -92,6 +92,19 @@ class Section(BaseModel):
     """Base of everything configured: immutable, no unknown key, no silent conversion."""
 
     model_config = ConfigDict(strict=True, extra="forbid", frozen=True, allow_inf_nan=False)
+    unsaid_if_empty: ClassVar[tuple[str, ...]] = ()
+    """Lists that are not written down when they are empty: cubes and records of studies without
+    them stay what they were before there were any."""
+
+    @model_serializer(mode="wrap")
+    def _without_empty_lists(
+        self, values_of: Callable[[Section], dict[str, Any]]
+    ) -> dict[str, Any]:
+        values = values_of(self)
+        for name in self.unsaid_if_empty:
+            if not values.get(name):
+                values.pop(name, None)
+        return values
 
 
 class Study(Section):
@@ -512,17 +525,13 @@ class Method(Section):
     )
 
 
-def without_empty(section: Section, values: dict[str, Any], key: str) -> dict[str, Any]:
-    """The values of a section, a list left out that is empty: cubes and records of studies
-    without it stay what they were before there was any."""
-    return values if getattr(section, key) else {k: v for k, v in values.items() if k != key}
-
-
 Direction = Literal["axial", "radial"]
 
 
 class Stiffness(Section):
     """Static stiffness between the end rings."""
+
+    unsaid_if_empty = ("one_sided",)
 
     error_percent: float | None = unit_field(
         "%",
@@ -555,18 +564,12 @@ class Stiffness(Section):
     one_sided: tuple[Direction, ...] = unit_field(
         "list",
         "Directions of `stiffness_loading` and `stiffness_unloading`: the top ring is moved by a "
-        "fiftieth of the thickness one way and the other, what yields, touches and rubs following. "
-        "For foil that is more than elastic. Left out, none is computed.",
+        "fiftieth of the thickness one way and the other, what yields, touches and rubs following; "
+        "clamps hold. For foil that may yield or touch itself. Left out, none is computed.",
         (),
         max_length=2,
         strict=False,
     )
-
-    @model_serializer(mode="wrap")
-    def _without_empty_list(
-        self, values_of: Callable[[Stiffness], dict[str, Any]]
-    ) -> dict[str, Any]:
-        return without_empty(self, values_of(self), "one_sided")
 
 
 class Amplitude(Section):
@@ -585,6 +588,8 @@ class Amplitude(Section):
 
 class Dynamics(Section):
     """Dynamic stiffness between the end rings."""
+
+    unsaid_if_empty = ("contacts",)
 
     reduction: choice_of(REDUCTIONS) = registry_field(
         REDUCTIONS, "rational_krylov", "How the foil is reduced. "
@@ -631,12 +636,6 @@ class Dynamics(Section):
         max_length=3,
         strict=False,
     )
-
-    @model_serializer(mode="wrap")
-    def _without_empty_list(
-        self, values_of: Callable[[Dynamics], dict[str, Any]]
-    ) -> dict[str, Any]:
-        return without_empty(self, values_of(self), "contacts")
 
     @model_validator(mode="after")
     def _fits_together(self) -> Dynamics:
@@ -705,6 +704,8 @@ class MeasuredRun(Section):
 class Report(Section):
     """The report page."""
 
+    unsaid_if_empty = ("measured",)
+
     title: str = unit_field("text", "Title of the report.", "Stiffness of crumpled foil", **TEXT)
     confidence_percent: float | None = unit_field(
         "%",
@@ -724,7 +725,3 @@ class Report(Section):
         max_length=50,
         strict=False,
     )
-
-    @model_serializer(mode="wrap")
-    def _without_empty_list(self, values_of: Callable[[Report], dict[str, Any]]) -> dict[str, Any]:
-        return without_empty(self, values_of(self), "measured")

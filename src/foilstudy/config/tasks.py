@@ -6,10 +6,7 @@ has changed: no report title, no other cell of the sweep.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
-from pydantic import Field, model_serializer
+from pydantic import Field
 
 from .air import Air
 from .contact import Contact
@@ -25,7 +22,6 @@ from .sections import (
     Section,
     Sheet,
     Thickness,
-    without_empty,
 )
 from .specimen import Specimen
 
@@ -67,15 +63,11 @@ class RefineTask(_Task):
 class ResponseTask(_Task):
     """Static and dynamic stiffness of one crumpled realisation."""
 
+    unsaid_if_empty = ("one_sided",)
+
     error_percent: float | None = None
     refinements: int = Field(ge=0)
     dynamics: Dynamics
     air: Air
     linear_directions: tuple[str, ...] = Field((), strict=False)
     one_sided: tuple[str, ...] = Field((), strict=False)
-
-    @model_serializer(mode="wrap")
-    def _without_empty_list(
-        self, values_of: Callable[[ResponseTask], dict[str, Any]]
-    ) -> dict[str, Any]:
-        return without_empty(self, values_of(self), "one_sided")

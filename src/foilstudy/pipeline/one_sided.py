@@ -7,6 +7,7 @@ not: the two secants of a virgin state differ. Shaken down they are one, the tan
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
@@ -23,6 +24,9 @@ _TOP = slice(-RING_ROWS, None)
 AMPLITUDE = 1 / 50
 """Default size of a motion, over the thickness: with a fifth the secants of a foil that has shaken
 down still depart from its tangent by 2 to 4 %."""
+_SNAP = 1.0
+"""Energy that the foil lets go on the way, over what the motion stores by the tangent, from which
+on it has snapped to another equilibrium: a force that follows a curve errs by a fraction of it."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -44,7 +48,8 @@ class OneSided:
     dissipated : tuple of float
         Work that plastic flow used up on the way there, loading and unloading, J.
     status, message : str
-        ``converged``, or that of the first motion that did not settle; its secant is NaN.
+        ``converged``, or that of the first motion that did not settle, ``snapped`` where it led to
+        another equilibrium; its secant is NaN.
     """
 
     direction: str
@@ -98,8 +103,9 @@ def one_sided(
     amplitude = AMPLITUDE * crumpled.foil.thickness if amplitude is None else amplitude
     require_number("amplitude of a motion", amplitude, "m", above=0)
     loads = -1.0 if direction == "axial" else 1.0
+    tangent = float(crumpled.prestressed_stiffness()[DIRECTIONS.index(direction)])
     pushes = [
-        [_pushed(crumpled, axis, sign * loads * amplitude) for axis in MOTIONS[direction]]
+        [_pushed(crumpled, axis, sign * loads * amplitude, tangent) for axis in MOTIONS[direction]]
         for sign in (1.0, -1.0)
     ]
     failed = [push for way in pushes for push in way if push.status != "converged"]
@@ -108,7 +114,7 @@ def one_sided(
         direction,
         amplitude,
         *(float(np.mean([push.secant for push in way])) for way in pushes),
-        float(crumpled.prestressed_stiffness()[DIRECTIONS.index(direction)]),
+        tangent,
         tuple(float(np.mean([push.dissipated for push in way])) for way in pushes),
         worst.status,
         worst.message,
@@ -122,26 +128,36 @@ class _Push:
     status: str
     message: str
 
+    @classmethod
+    def failed(cls, status: str, message: str) -> Self:
+        return cls(np.nan, np.nan, status, message)
 
-def _pushed(crumpled: Crumpled, axis: int, motion: float) -> _Push:
+
+def _pushed(crumpled: Crumpled, axis: int, motion: float, tangent: float) -> _Push:
     """The ring moved along one axis, the motion first spread over the height."""
     problem, points = crumpled.problem(), crumpled.points.copy()
     force, spent = ring_force(problem, points)[axis], dissipated_work(problem)
+    stored = problem.value(points) + problem.spent(problem.state)
     rows = points[2].mean(axis=1)
     share = np.clip(rows / rows[_TOP].mean(), 0.0, 1.0)
     share[:RING_ROWS], share[_TOP] = 0.0, 1.0
     points[axis] += motion * share[:, None]
     settling = crumpled.method.path.settling
+    if not np.isfinite(problem.value(points)):
+        return _Push.failed("failed", "parts of the foil would cross on the way")
     try:
         points, found = minimised(problem, points, settling, settling.hessians_last)
         problem.commit(points)
-        status, message = found.status, found.message
     except SolveError as error:
-        status, message = "failed", str(error)
-    if status != "converged":
-        return _Push(np.nan, np.nan, status, message)
-    secant = (ring_force(problem, points)[axis] - force) / motion
-    return _Push(float(secant), dissipated_work(problem) - spent, status, message)
+        return _Push.failed("failed", str(error))
+    if found.status != "converged":
+        return _Push.failed(found.status, found.message)
+    after = ring_force(problem, points)[axis]
+    gained = problem.value(points) + problem.spent(problem.state) - stored
+    if 0.5 * (force + after) * motion - gained > _SNAP * 0.5 * abs(tangent) * motion**2:
+        return _Push.failed("snapped", "the foil snapped to another equilibrium on the way")
+    secant = float((after - force) / motion)
+    return _Push(secant, dissipated_work(problem) - spent, found.status, found.message)
 
 
 def ring_force(problem: Problem, points: np.ndarray) -> np.ndarray:

@@ -14,6 +14,7 @@ from foilstudy.base.numerals import percent
 from foilstudy.bench.comparison import placed
 from foilstudy.bench.transfer_level import band_levels
 from foilstudy.measure.stiffness import DOF_NAMES
+from foilstudy.measure.stiffness.contacts import CONTACT_SPRINGS
 from foilstudy.present.statistics.cells import good, measured, realised
 from foilstudy.present.statistics.trust import ERROR_MAX, Trust, assess_trust
 
@@ -26,13 +27,18 @@ LINEAR_AMPLITUDE = "amplitude_1_percent"
 """Variable of a cube with the amplitude at which the stiffness has changed by 1 %."""
 
 BESIDE = {
-    "stiffness_contacts_stuck": "closed contacts stuck",
-    "true_stiffness": "as it stands, with its stresses",
-    "stiffness_loading": "as it stands, loaded further",
-    "stiffness_unloading": "as it stands, unloaded",
+    "stiffness_contacts_ignored": "contacts open",
+    "stiffness_contacts_stuck": "contacts stuck",
+    "true_stiffness": "as it stands",
+    "stiffness_loading": "so, {0}",
+    "stiffness_unloading": "so, {1}",
 }
 """Variables of a cube with another static stiffness of a direction, where it holds them, and what
 they are of."""
+_WAYS = {
+    "axial": ("pushed together", "pulled apart"),
+    "radial": ("along x and y", "the other way"),
+}
 
 
 @dataclass(frozen=True)
@@ -58,6 +64,15 @@ class Value:
         finite = values[np.isfinite(values)]
         ends = (float(finite.min()), float(finite.max())) if finite.size else (np.nan, np.nan)
         return cls(MeanInterval.of(values), *ends)
+
+    @classmethod
+    def of_any_sign(cls, values: np.ndarray) -> Self:
+        """Of values that may be negative; then no interval and no scatter are told."""
+        values = values[np.isfinite(values)]
+        if (values > 0).all():
+            return cls.of(values)
+        plain = MeanInterval(values.size, float(values.mean()), np.nan, np.nan, np.nan)
+        return cls(plain, float(values.min()), float(values.max()))
 
     @property
     def known(self) -> bool:
@@ -117,7 +132,8 @@ class Direction:
         Transfer stiffness, N/m; NaN where it is not valid.
     bands : Bands
     beside : dict of str to Value
-        Other static stiffnesses on the mesh that was crumpled, by what they are of, N/m.
+        Other static stiffnesses on the mesh that was crumpled, by what they are of, N/m; those of
+        contacts where any is closed.
     """
 
     name: str
@@ -247,14 +263,21 @@ def _direction(cell: xr.Dataset, name: str, trust: Trust, counted: np.ndarray) -
         amplitude,
         curves,
         Bands.of(cell["frequency"].to_numpy(), curves),
-        {
-            words: value
-            for variable, words in BESIDE.items()
-            if variable in cell
-            for value in (Value.of(_by_seed(good(cell, variable, direction=name))),)
-            if value.known
-        },
+        dict(_beside(cell, name)),
     )
+
+
+def _beside(cell: xr.Dataset, name: str) -> Iterator[tuple[str, Value]]:
+    bracket = [f"stiffness_contacts_{kind}" for kind in CONTACT_SPRINGS]
+    if bracket[0] in cell:
+        ends = (measured(cell, each, direction=name) for each in (bracket[0], bracket[-1]))
+        if (np.subtract(*map(_by_seed, ends)) >= 0).all():
+            cell = cell.drop_vars(bracket)  # nothing touches
+    for variable, words in BESIDE.items():
+        if variable in cell:
+            value = Value.of_any_sign(_by_seed(measured(cell, variable, direction=name)))
+            if value.known:
+                yield words.format(*_WAYS[name]), value
 
 
 def _doubts(trust: Trust, direction: str) -> Iterator[str]:

@@ -132,7 +132,8 @@ def _scope(cube: xr.Dataset, facts: LinkFacts) -> str:
         )
     air = configuration(cube).get("air", {}).get("kind", "none")
     surroundings = "in vacuum" if air == "none" else "its dynamics in air"
-    return f"{text}. Stress-free in its crumpled shape; both rings rigid; {surroundings}."
+    stress = "Stress-free in its crumpled shape where nothing else is said"
+    return f"{text}. {stress}; both rings rigid; {surroundings}."
 
 
 def _counted(facts: LinkFacts) -> str:
@@ -156,7 +157,7 @@ def _static_rows(facts: LinkFacts) -> Iterator[_Row]:
         best = each.limit if each.limit.known else each.static
         yield _row(f"{each.name}, N/m", best, percent(each.mesh_error), _amplitude(each, facts))
         for words, value in each.beside.items():
-            yield _row(f"{each.name}, {words}", value)
+            yield _row(f"{each.name}, {words}, N/m", value)
     for name, value in facts.motions.items():
         yield _row(_MOTIONS[name], value)
 
@@ -197,7 +198,11 @@ def _static_words(facts: LinkFacts) -> str:
         "the mesh on which they crumpled, about the centre of the ring, the other ring held."
     )
     if any(each.beside for each in facts.directions):
-        text += " What stands below axial and radial: on that mesh, too."
+        text += (
+            " Rows under axial and radial: on the mesh on which they crumpled, stress-free by what "
+            "closed contacts do; as it stands with its stresses and, so, by small motions of the "
+            "ring one way and the other."
+        )
     if all(each.amplitude is None for each in facts.directions):
         text += " The amplitude at which the stiffness has changed by 1 % was not computed."
     return text

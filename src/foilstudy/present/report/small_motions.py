@@ -27,6 +27,10 @@ __all__ = [
 
 _OPEN, _STUCK = CONTACT_SPRINGS[0], CONTACT_SPRINGS[-1]
 _LOADING, _UNLOADING = "stiffness_loading", "stiffness_unloading"
+_WAYS = {
+    "axial": "axially {} times pushed together and {} times pulled apart",
+    "radial": "radially {} times along x and y and {} times the other way",
+}
 WORDS = {
     "ignored": "contacts open",
     "normal": "closed as springs",
@@ -44,10 +48,12 @@ class BracketRow:
     ----------
     touching, n : int
         Realisations that have any, and all that count.
-    pairs : float
-        Closed pairs, mean over those that have any.
+    contacts : float
+        Closed pairs and knots at the rings, mean over those that have any, as all that follows.
     stiffness : mapping of direction and kind to float
-        Means over all that count, N/m.
+        N/m.
+    factor : mapping of direction to float
+        Stuck over open, the mean of their ratios.
     first_hz : mapping of kind to float
         First eigenfrequency, rings clamped, Hz; of what the study measured.
     """
@@ -56,14 +62,18 @@ class BracketRow:
     overlength_percent: float
     touching: int
     n: int
-    pairs: float
+    contacts: float
     stiffness: dict[tuple[str, str], float]
+    factor: dict[str, float]
     first_hz: dict[str, float]
 
 
 @dataclass(frozen=True)
 class SecantRow:
-    """One configuration in one direction, means in N/m over realisations that have all three."""
+    """One configuration in one direction, means in N/m over realisations that have all three.
+
+    Loading is down axially, along x and y radially; unloading the other way.
+    """
 
     thickness_um: float
     overlength_percent: float
@@ -78,30 +88,41 @@ def bracket_rows(cube: xr.Dataset) -> list[BracketRow]:
     """Read the bracket of closed contacts; empty where nothing touches, or may."""
     if "contact_pairs" not in cube:
         return []
-    pairs, first = measured(cube, "contact_pairs"), _first_hz(cube)
-    values = {kind: measured(cube, f"stiffness_contacts_{kind}") for kind in CONTACT_SPRINGS}
+    closed, first = _closed(cube), _first_hz(cube)
+    touching = closed > 0
+    values = {
+        kind: measured(cube, f"stiffness_contacts_{kind}").where(touching)
+        for kind in CONTACT_SPRINGS
+    }
+    factors = values[_STUCK] / values[_OPEN]
     rows = []
     for place in _places(cube):
-        here = pairs.sel(place).values
-        closed = here[here > 0]
-        if not closed.size:
+        if not touching.sel(place).any():
             continue
+        directions = {str(d): place | {"direction": d} for d in cube["direction"].values}
         rows.append(
             BracketRow(
-                place["thickness"],
-                place["overlength"],
-                closed.size,
-                int(np.isfinite(here).sum()),
-                float(closed.mean()),
+                *place.values(),
+                int(touching.sel(place).sum()),
+                int(np.isfinite(closed.sel(place)).sum()),
+                float(closed.where(touching).sel(place).mean()),
                 {
-                    (str(d), kind): float(values[kind].sel(place | {"direction": d}).mean())
-                    for d in cube["direction"].values
+                    (name, kind): float(values[kind].sel(at).mean())
+                    for name, at in directions.items()
                     for kind in CONTACT_SPRINGS
                 },
-                {kind: float(found.sel(place).mean()) for kind, found in first.items()},
+                {name: float(factors.sel(at).mean()) for name, at in directions.items()},
+                {k: float(hz.where(touching).sel(place).mean()) for k, hz in first.items()},
             )
         )
     return rows
+
+
+def _closed(cube: xr.Dataset) -> xr.DataArray:
+    """Pairs of the foil and knots at the planes of the rings that are within the reach."""
+    closed = measured(cube, "contact_pairs")
+    at_rings = "contact_knots_at_rings"
+    return closed + measured(cube, at_rings).fillna(0) if at_rings in cube else closed
 
 
 def bracket_findings(cube: xr.Dataset) -> list[str]:
@@ -113,14 +134,12 @@ def bracket_findings(cube: xr.Dataset) -> list[str]:
         return ["Parts of the foil may touch, but in none of the shapes that are measured any do."]
     parts = []
     for direction in map(str, cube["direction"].values):
-        factor = Spread.of(
-            [r.stiffness[direction, _STUCK] / r.stiffness[direction, _OPEN] for r in rows]
-        )
+        factor = Spread.of([row.factor[direction] for row in rows])
         if factor:
             parts.append(f"{number_range(factor.lowest, factor.highest)} times {direction}ly")
     sentences = [
         f"In {len(rows)} of {plural(all_of_them, 'configuration')} parts of the foil touch in the "
-        "shape that is measured.",
+        "shape that is measured: they are within the reach of the barrier.",
         "What a closed contact does in a small motion is not known: it opens, presses or sticks.",
     ]
     if parts:
@@ -140,7 +159,7 @@ def bracket_picture(cube: xr.Dataset) -> tuple[str, bytes]:
     rows = bracket_rows(cube)
     if kinds == [_OPEN] or not rows:
         return "", b""
-    most = max(rows, key=lambda row: row.touching * row.pairs)
+    most = max(rows, key=lambda row: row.touching * row.contacts)
     title = f"{nominal(most.thickness_um)} µm, {nominal(most.overlength_percent)} %"
     place = {"thickness": most.thickness_um, "overlength": most.overlength_percent}
     picture = io.BytesIO()
@@ -188,28 +207,32 @@ def secant_rows(cube: xr.Dataset) -> list[SecantRow]:
 
 
 def secant_findings(cube: xr.Dataset) -> list[str]:
-    """Say how far loading and unloading differ, in sentences."""
+    """Say how far the two ways differ, in sentences."""
     if _LOADING not in cube:
         return []
     rows, parts = secant_rows(cube), []
+    if not rows:
+        return ["No foil found an equilibrium near where it stands both ways."]
     for direction in map(str, cube["direction"].values):
         here = [row for row in rows if row.direction == direction and row.as_it_stands > 0]
-        loading = Spread.of([row.loading / row.as_it_stands for row in here])
-        unloading = Spread.of([row.unloading / row.as_it_stands for row in here])
-        if loading and unloading:
-            parts.append(
-                f"{direction}ly it has {number_range(loading.lowest, loading.highest)} times that "
-                f"stiffness loaded further and {number_range(unloading.lowest, unloading.highest)} "
-                "times unloaded"
-            )
-    if not parts:
-        return ["No realisation has a positive stiffness of loading and of unloading."]
-    text = "; ".join(parts)
-    return [
-        "What has yielded, slipped or touched may resist one way less than the other. Moved by a "
-        "fiftieth of its thickness from where it stands, with all of that following, the foil is "
-        f"compared with its tangent there: {text} (means of configurations)."
+        spreads = [
+            Spread.of([getattr(row, way) / row.as_it_stands for row in here])
+            for way in ("loading", "unloading")
+        ]
+        if all(spreads):
+            ways = (number_range(each.lowest, each.highest) for each in spreads)
+            parts.append(_WAYS[direction].format(*ways))
+    sentences = [
+        "What yields or touches may resist one way less than the other. The foil is moved by a "
+        "fiftieth of its thickness from where it stands, one way and the other; flow, contacts and "
+        "friction follow, clamps hold."
     ]
+    if parts:
+        sentences.append(
+            f"Of its tangent stiffness there it then has {'; '.join(parts)} (means of "
+            "configurations whose tangent is positive)."
+        )
+    return sentences
 
 
 def _places(cube: xr.Dataset) -> list[dict[str, float]]:

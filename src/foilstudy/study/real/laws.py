@@ -15,9 +15,9 @@ from foilstudy.measure.stiffness.bounds import bound_of_any_shape
 from foilstudy.measure.stiffness.directional import DIRECTIONS
 from foilstudy.study.kernel.plan import Records
 from foilstudy.study.published import GAP_HEIGHT, foil
-from foilstudy.study.real.beside import results as results_beside
 from foilstudy.study.real.plan import NAME
 from foilstudy.study.real.settings import Trial, ladder
+from foilstudy.study.real.studied import realisations
 
 STATES = {
     "stress-free": ("static_stiffness",),
@@ -142,7 +142,7 @@ def _measured(direction: str, overlength, thickness):
 
 def _laws(results: dict[Trial, dict]) -> Iterator[Law]:
     models = [(step, results) for step in ladder(NAME).steps]
-    models += [(entry, results_beside(entry)) for entry in ladder(NAME).beside]
+    models += [(entry, realisations(entry)) for entry in ladder(NAME).studied]
     for step, measured in models:
         trials = {t: r for t, r in measured.items() if t.step == step.name}
         for state, quantities in STATES.items():

@@ -36,7 +36,7 @@ class Trial:
     step : str
         Name of the model.
     content : str
-        Digest of its sections: another content is another case.
+        Digest of its sections, as another content is another case; the study that it is of, if any.
     thickness_um, height_mm, seed : int
     """
 
@@ -76,15 +76,15 @@ class Step(Section):
     seeds: int | None = pydantic.Field(None, ge=1)
 
 
-class Beside(Section):
-    """Studies of the same foil that the laws of the models stand beside.
+class Studied(Section):
+    """A model whose trials are realisations of studies.
 
     Attributes
     ----------
     name, words : str
         As of a step.
     studies : tuple of str
-        Names; their cubes make up one model.
+        Their names; no two have a realisation of one foil and seed.
     """
 
     name: str = pydantic.Field(pattern=r"^[A-Za-z0-9_]+$")
@@ -100,7 +100,7 @@ class Ladder(Section):
     seeds: int = pydantic.Field(ge=1)
     sections: Sections
     steps: tuple[Step, ...] = pydantic.Field(**_List)
-    beside: tuple[Beside, ...] = pydantic.Field((), **_List)
+    studied: tuple[Studied, ...] = pydantic.Field((), **_List)
 
     @pydantic.model_validator(mode="after")
     def _in_order(self) -> Ladder:
@@ -114,7 +114,7 @@ class Ladder(Section):
                         f"step {step.name!r} {word} {other!r}, which is none of the steps above it"
                     )
             known.add(step.name)
-        for entry in self.beside:
+        for entry in self.studied:
             if entry.name in known:
                 raise ValueError(f"two models are called {entry.name!r}; rename one")
             known.add(entry.name)

@@ -9,14 +9,14 @@ from foilstudy.study.real.settings import cube_of, ladder
 def words(study: str) -> dict[str, list[str | None]]:
     """By step, its words for people and what it stands beside.
 
-    Of studies that stand beside the models, their words and what their cubes are noted to be.
+    Of models that are studies, their words and what the cubes are noted to be.
     """
     models = ladder(study)
     if models is None:
         return {}
     cubes = {
         entry.name: [entry.words, *(_content(name) for name in entry.studies)]
-        for entry in models.beside
+        for entry in models.studied
     }
     return {step.name: [step.words, step.beside] for step in models.steps} | cubes
 

@@ -66,9 +66,9 @@ def _one_sided(words: str) -> Declared:
     return Declared("N/m", words, _DIRECTION, only="one_sided")
 
 
-def _vibrating(kind: str, words: str) -> dict[str, Declared]:
+def _with_contacts(kind: str, words: str) -> dict[str, Declared]:
     """Dynamic stiffness and eigenfrequencies with closed contacts of a kind."""
-    only, of = f"vibrating_{kind}", f"closed contacts {words}"
+    only, of = f"contacts_{kind}", f"closed contacts {words}"
     return {
         f"dynamic_stiffness_contacts_{kind}_re": Declared(
             "N/m", f"dynamic stiffness, {of}, real part", _DYNAMIC, only=only
@@ -164,7 +164,7 @@ QUANTITIES: dict[str, Declared] = {
     **{
         name: what
         for kind, words in _CLOSED.items()
-        for name, what in _vibrating(kind, words).items()
+        for name, what in _with_contacts(kind, words).items()
     },
     "first_eigenfrequency": Declared("Hz", "first eigenfrequency, rings clamped"),
     "vacuum_first_eigenfrequency": Declared(

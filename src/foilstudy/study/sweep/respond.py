@@ -33,8 +33,12 @@ from foilstudy.study.sweep.origins import read_crumple, response_origin
 from foilstudy.study.sweep.outcome import Outcome, Values, outcome_of
 from foilstudy.study.sweep.quantities import quantities
 
-_OF_CONTACTS = ("dynamic_stiffness_re", "dynamic_stiffness_im", "eigenfrequency")
-"""What of the dynamics is measured with closed contacts, too."""
+_OF_CONTACTS = {
+    "dynamic_stiffness_re": "dynamic_stiffness_contacts_{}_re",
+    "dynamic_stiffness_im": "dynamic_stiffness_contacts_{}_im",
+    "eigenfrequency": "eigenfrequency_contacts_{}",
+}
+"""What of the dynamics is measured with closed contacts, too, and what it is called then."""
 
 
 def respond_job(task: ResponseTask, crumple_path: Path, path: Path) -> None:
@@ -59,6 +63,7 @@ def respond_job(task: ResponseTask, crumple_path: Path, path: Path) -> None:
             _without_amplitude(task, values),
             _without_secants(task, values),
             _beyond_validity(task, values),
+            _without_contacts(task, values),
             _unstable(values),
         )
         words = filter(None, (outcome.message, *missing))
@@ -122,7 +127,27 @@ def _without_secants(task: ResponseTask, values: dict) -> str:
     ]
     if not without:
         return ""
-    return f"no stiffness of {' and '.join(without)} loading and unloading, as the foil snaps"
+    return (
+        f"no stiffness of {' and '.join(without)} loading and unloading both, as the foil finds no "
+        "equilibrium nearby"
+    )
+
+
+def _without_contacts(task: ResponseTask, values: dict) -> str:
+    """What to say of dynamics with closed contacts that are known less far than with open ones."""
+    open_to = np.isfinite(values["dynamic_stiffness_re"]).sum()
+    without = [
+        kind
+        for kind in task.dynamics.contacts
+        if np.isfinite(values[f"dynamic_stiffness_contacts_{kind}_re"]).sum() < open_to
+    ]
+    if not without:
+        return ""
+    return (
+        f"dynamic stiffness with closed contacts ({', '.join(without)}) not in the whole band, as "
+        "the reduced model is wrong beyond or could not be made: lower dynamics.shown_max_hz or "
+        "raise dynamics.tolerance"
+    )
 
 
 def _beyond_validity(task: ResponseTask, values: dict) -> str:
@@ -270,17 +295,19 @@ def _on_contacts(
 ) -> Values:
     """Dynamics free of stress with closed contacts of some kinds, see `ContactBracket`.
 
-    Where none is closed they are those with open ones.
+    Where none is closed they are those with open ones, and NaN where they cannot be had.
     """
     closed = any(each.closed_at(crumpled.points) for each in crumpled.contacts())
     values: Values = {}
     for kind in kinds:
-        found = opened
+        found = {name: opened[name] for name in _OF_CONTACTS}
         if closed:
-            found = _dynamic_stiffness(crumpled.vibration(options, air, kind))
-        for name in _OF_CONTACTS:
-            root = name.removesuffix("_re").removesuffix("_im")
-            values[f"{root}_contacts_{kind}{name.removeprefix(root)}"] = found[name]
+            try:
+                found = _dynamic_stiffness(crumpled.vibration(options, air, kind))
+            except SolveError as error:
+                print(f"no dynamic stiffness with contacts that are {kind}: {error}")
+                found = {name: np.full_like(value, np.nan) for name, value in found.items()}
+        values |= {template.format(kind): found[name] for name, template in _OF_CONTACTS.items()}
     return values
 
 

@@ -20,7 +20,7 @@ SWITCHES: dict[str, Callable[[StudyConfig], bool]] = {
     "slipping": lambda study: study.specimen.clamp_slip_mm > 0,
     "retrying": lambda study: study.method.retries > 0,
     **{
-        f"vibrating_{kind}": lambda study, kind=kind: kind in study.dynamics.contacts
+        f"contacts_{kind}": lambda study, kind=kind: kind in study.dynamics.contacts
         for kind in CLOSED_CONTACTS
     },
 }
