@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -83,3 +85,12 @@ def test_tables_and_chart_have_every_word(outcome):
     panels = chart(outcome).axes
     assert [panel.get_title() for panel in panels] == list(QUANTITIES)
     assert all(len(panel.containers) == len(STEPS) for panel in panels)
+
+
+def test_a_word_that_means_something_else_is_another_case(monkeypatch):
+    before = {case.step: case.content for case in CASES}
+    other = replace(ACCURACIES["quick"], ramp_slowness=5.0)
+    monkeypatch.setitem(ACCURACIES, "quick", other)
+    after = {case.step: case.content for case in ladder(NAME).trials()}
+    changed = {step for step in before if before[step] != after[step]}
+    assert changed == {"quick"}  # the slow one says its ramp itself

@@ -14,6 +14,7 @@ from typing import Any, TypeVar
 
 import pydantic
 
+from foilstudy.config.accuracy import completed
 from foilstudy.config.sections import Section
 from foilstudy.config.sources import merged
 from foilstudy.study.settings import content_digest, read_settings
@@ -143,10 +144,15 @@ class Ladder(Section):
     def trials(self) -> Iterator[Trial]:
         """Of every step, every foil."""
         for step in self.steps:
-            content = content_digest(self.sections_of(step.name))
+            content = content_digest(_meant(self.sections_of(step.name)))
             for foil in self._foils(step):
                 for seed in range(step.seeds or self.seeds):
                     yield Trial(step.name, content, *foil, seed)
+
+
+def _meant(sections: Sections) -> Sections:
+    """With what a word of accuracy stands for: with another meaning it is another model."""
+    return completed(sections) if "accuracy" in sections else sections
 
 
 @cache
