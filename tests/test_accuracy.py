@@ -201,11 +201,11 @@ def test_keys_that_overrule_the_word_are_named():
 def test_choices_say_for_each_thickness_what_it_gets_and_why():
     head, thin, thick, wide, told = choices(study(accuracy="quick"))
     assert head == "Accuracy quick"
-    assert thin.startswith("  130 um: elements of 2.6 mm (25 % energy error), 3077 steps of ramp")
-    assert thick.startswith("  500 um: elements of 5.1 mm (25 % energy error), 800 steps of ramp")
+    assert thin.startswith("  130 um: elements of 2.6 mm (25 % energy error), 9231 steps of ramp")
+    assert thick.startswith("  500 um: elements of 5.1 mm (25 % energy error), 2400 steps of ramp")
     assert thick.endswith("shape refined to 10 %, at most twice, reduction to 0.01")
     assert "The elements of foil of 130, 500 um are 0.72 times sqrt(R t) wide" in wide
-    assert "The ramp hurries foil of 130, 500 um: 4 steps" in told
+    assert "The ramp hurries foil of 130, 500 um: 12 steps" in told
     _, both, *told = choices(study(mesh={"element_size_mm": 5}, relaxation={"ramp_steps": 2000}))
     assert len(told) == 4  # folds not resolved, first buckles that come early, shapes, the ramp
     assert both.startswith("  130 to 500 um: elements of 5 mm (as given), 2000 steps of ramp")
