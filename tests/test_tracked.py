@@ -10,7 +10,7 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 PICTURE_BYTES_MAX = 300_000
-TREE_BYTES_MAX = 15_400_000
+TREE_BYTES_MAX = 16_500_000
 
 
 @pytest.fixture(scope="module")
