@@ -73,7 +73,13 @@ def results(tmp_path_factory):
         (folder / table).parent.mkdir()
         (folder / table).write_text("| a | table |\n", "utf-8")
     (folder / "specimen").mkdir()
-    for table in ("tradeoff/tradeoff.csv", "real/trials.csv", "specimen/specimen.md"):
+    copied = (
+        "tradeoff/tradeoff.csv",
+        "real/trials.csv",
+        "specimen/specimen.md",
+        "accuracy/trials.csv",
+    )
+    for table in copied:
         shutil.copy(ROOT / "results" / table, folder / table)
     return folder
 
