@@ -61,11 +61,11 @@ def results(tmp_path_factory):
         slow[name] = 0.8 * STIFFER * slow[name]
     make_study(folder, "resolved_slow", slow)
     full = make_cube((250.0, 500.0), seeds=2, cv=ten_percent)
-    plain = full["static_stiffness_converged"]
+    plain = full["static_stiffness"]
     given = {"true_stiffness": plain / 2, "stiffness_contacts_stuck": 2 * plain}
     make_study(folder, "real_resolved", full.assign(given))
     thin = make_cube((130.0,), (135.0, 150.0, 170.0), seeds=1, cv=ten_percent)
-    plain = thin["static_stiffness_converged"]
+    plain = thin["static_stiffness"]
     given = {"true_stiffness": plain / 2, "stiffness_contacts_stuck": 2 * plain}
     make_study(folder, "real_resolved_thin", thin.assign(given))
     tables = ("tradeoff/tradeoff.md", "real/laws.md", "truth/influences.md", "accuracy/accuracy.md")
@@ -225,7 +225,7 @@ def test_the_whole_model_stands_beside_elastic_foil_and_the_measured_law(results
         assert "(" in rows[k][3]
     law = published().power_laws["axial"]["experiment"].law
     cube = Study(results / "real_resolved").cube
-    at = cube["static_stiffness_converged"].sel(direction="axial", thickness=250).isel(overlength=2)
+    at = cube["static_stiffness"].sel(direction="axial", thickness=250).isel(overlength=2)
     over = at.values / law.stiffness(float(at["overlength"]), 250)
     assert float(rows[1][5].split()[0]) == pytest.approx(np.exp(np.log(over).mean()), abs=0.01)
     exponents = cells(laws)
