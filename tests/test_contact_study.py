@@ -199,7 +199,11 @@ def test_the_page_and_the_data_sheet_show_the_bracket_and_both_secants(touching,
     assert [each.direction for each in secant_rows(cube)] == ["axial"]
     axial, radial = link_facts(cube).directions
     assert set(radial.beside) == {"contacts open", "contacts stuck", "as it stands"}
-    assert set(axial.beside) == {*radial.beside, "so, pushed together", "so, pulled apart"}
+    assert set(axial.beside) == {
+        *radial.beside,
+        "as it stands, pushed together",
+        "as it stands, pulled apart",
+    }
     # of a negative one, too, as the page has it
     (stands,) = (row.as_it_stands for row in secant_rows(cube))
     assert axial.beside["as it stands"].interval.mean == pytest.approx(stands)
@@ -213,6 +217,15 @@ def altered(touching, folder, **values):
     gather(study, results, folder / "cube.nc")
     cube = open_cube(folder / "cube.nc")
     return cube.assign({k: xr.full_like(cube[k], 1.0) * np.array(v) for k, v in values.items()})
+
+
+def test_a_data_sheet_has_no_bracket_where_nothing_touches(touching, tmp_path):
+    nowhere = altered(touching, tmp_path, contact_pairs=0.0, contact_knots_at_rings=np.nan)
+    missing = nowhere.assign_coords(seed=[1]).copy(deep=True)
+    missing["status"] = missing["status"].astype(object)
+    missing["status"][:] = "not_needed"
+    both = xr.concat([nowhere, missing], "seed", data_vars="all")
+    assert not any("contacts" in words for words in link_facts(both).directions[0].beside)
 
 
 def test_planes_alone_are_contact_and_no_contact_at_all_is_said(touching, tmp_path):
@@ -298,7 +311,7 @@ def test_what_cannot_be_measured_is_left_out_and_said(touching, tmp_path, monkey
     assert attributes["status"] == "converged" and np.isfinite(values["static_stiffness"]).all()
     for name in ("stiffness_loading", "dynamic_stiffness_contacts_stuck_re"):
         assert np.isnan(values[name]).all()
-    assert "no stiffness of axial loading and unloading both" in attributes["message"]
+    assert "not both secants (axial)" in attributes["message"]
     assert "dynamic stiffness with closed contacts (normal, stuck) not" in attributes["message"]
 
 

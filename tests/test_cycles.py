@@ -11,9 +11,10 @@ from foilstudy.model.contact.options import BarrierContact
 from foilstudy.model.foil import Imperfection
 from foilstudy.model.patch import knot_points
 from foilstudy.model.shell.intersection import self_crossing_share
+from foilstudy.pipeline import one_sided as one_sided_module
 from foilstudy.pipeline.crumple import crumple
 from foilstudy.pipeline.method import Mesh, Method
-from foilstudy.pipeline.one_sided import one_sided
+from foilstudy.pipeline.one_sided import one_sided, snapped
 from foilstudy.pipeline.shakedown import shaken_down
 from foilstudy.pipeline.spring_back import sprung_back
 from foilstudy.solve.paths.minimisation import MinimisationPath
@@ -46,11 +47,39 @@ def test_a_virgin_state_is_one_sided(virgin, shaken):
     assert max(old.dissipated) < 1e-3 * loading
 
 
-def test_a_foil_that_snaps_on_the_way_has_no_secant(virgin):
-    """Pulled straight it lets go more energy than the motion brings; pushed it does not."""
-    secants = one_sided(virgin, "axial", 1e-2)
+def test_a_foil_that_snaps_on_the_way_has_no_secant_that_way(virgin, monkeypatch):
+    def only_apart(before, after, motion, gained, scale):
+        assert not snapped(before, after, motion, gained, scale)
+        return motion > 0
+
+    monkeypatch.setattr(one_sided_module, "snapped", only_apart)
+    secants = one_sided(virgin)
     assert secants.status == "snapped" and "another equilibrium" in secants.message
-    assert np.isnan(secants.unloading) and np.isfinite(secants.loading)
+    assert np.isnan(secants.unloading) and secants.loading == pytest.approx(
+        secants.tangent, rel=0.1
+    )
+
+
+@pytest.mark.parametrize("motion", [1e-5, -1e-5])
+@pytest.mark.parametrize(
+    ("second", "share", "let_go", "expected"),
+    [
+        (1.0, 0.5, 0.0, False),  # a straight line
+        (100.0, 0.9, 0.0, False),  # parts that touch near the end of the motion
+        (100.0, 0.1, 0.0, False),
+        (0.01, 0.5, 0.0, False),  # flow
+        (1.0, 0.5, 2.0, True),  # of what the straight line stores
+        (1.0, 0.5, 0.5, False),
+    ],
+)
+def test_a_snap_is_told_from_a_force_with_a_kink(motion, second, share, let_go, expected):
+    """The stiffness is another one from a share of the motion on."""
+    first, before = 1e3, 7.0
+    there = before + first * share * motion
+    after = there + second * first * (1 - share) * motion
+    work = 0.5 * (before + there) * share * motion + 0.5 * (there + after) * (1 - share) * motion
+    gained = work - let_go * 0.5 * first * motion**2
+    assert snapped(before, after, motion, gained, first) == expected
 
 
 def test_work_per_cycle_falls_until_the_foil_is_elastic(virgin, shaken):

@@ -96,7 +96,7 @@ ACCURACIES: Mapping[str, Accuracy] = {
             name="quick",
             words="a first look",
             energy_error_percent=25.0,
-            ramp_slowness=12.0,  # the least of which ten times more make no other foil of its mesh
+            ramp_slowness=12.0,
             stiffness_error_percent=10.0,
             reduction_tolerance=1e-2,
         ),

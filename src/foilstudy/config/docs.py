@@ -29,8 +29,10 @@ and check the files.
 | `config.yaml` | small default study: three thicknesses, three heights, a few minutes |
 | `thesis.yaml` | the whole published study: 4 thicknesses, 5 heights, 6 realisations |
 | `resolved.yaml` | the published case on meshes that resolve it, 130 to 500 um |
-| `resolved_thin.yaml` | the same of 50 um, half an hour of a core for a crumple |
+| `resolved_thin.yaml` | the same of 50 um, 28 to 47 minutes of a core for a crumple |
 | `resolved_slow.yaml` | `resolved.yaml` in a ramp three times slower, for what that changes |
+| `real_resolved.yaml` | the whole model on these meshes, 250 and 500 um |
+| `real_resolved_thin.yaml` | the same of 130 um, half an hour of a core for a realisation |
 | `tiny.yaml` | coarse and short, to test the workflow; its numbers mean nothing |
 
 `accuracy.yaml`, `limits.yaml`, `real.yaml`, `tradeoff.yaml` and `truth.yaml` say what side

@@ -24,9 +24,9 @@ _TOP = slice(-RING_ROWS, None)
 AMPLITUDE = 1 / 50
 """Default size of a motion, over the thickness: with a fifth the secants of a foil that has shaken
 down still depart from its tangent by 2 to 4 %."""
-_SNAP = 1.0
-"""Energy that the foil lets go on the way, over what the motion stores by the tangent, from which
-on it has snapped to another equilibrium: a force that follows a curve errs by a fraction of it."""
+_FLOOR = 0.05
+"""Least stiffness by which a snap is judged, of the larger one of both directions: foil that stands
+by its rings may have next to none in one."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -103,9 +103,11 @@ def one_sided(
     amplitude = AMPLITUDE * crumpled.foil.thickness if amplitude is None else amplitude
     require_number("amplitude of a motion", amplitude, "m", above=0)
     loads = -1.0 if direction == "axial" else 1.0
-    tangent = float(crumpled.prestressed_stiffness()[DIRECTIONS.index(direction)])
+    tangents = crumpled.prestressed_stiffness()
+    tangent = float(tangents[DIRECTIONS.index(direction)])
+    scale = max(abs(tangent), _FLOOR * float(np.abs(tangents).max()))
     pushes = [
-        [_pushed(crumpled, axis, sign * loads * amplitude, tangent) for axis in MOTIONS[direction]]
+        [_pushed(crumpled, axis, sign * loads * amplitude, scale) for axis in MOTIONS[direction]]
         for sign in (1.0, -1.0)
     ]
     failed = [push for way in pushes for push in way if push.status != "converged"]
@@ -133,7 +135,7 @@ class _Push:
         return cls(np.nan, np.nan, status, message)
 
 
-def _pushed(crumpled: Crumpled, axis: int, motion: float, tangent: float) -> _Push:
+def _pushed(crumpled: Crumpled, axis: int, motion: float, scale: float) -> _Push:
     """The ring moved along one axis, the motion first spread over the height."""
     problem, points = crumpled.problem(), crumpled.points.copy()
     force, spent = ring_force(problem, points)[axis], dissipated_work(problem)
@@ -154,10 +156,33 @@ def _pushed(crumpled: Crumpled, axis: int, motion: float, tangent: float) -> _Pu
         return _Push.failed(found.status, found.message)
     after = ring_force(problem, points)[axis]
     gained = problem.value(points) + problem.spent(problem.state) - stored
-    if 0.5 * (force + after) * motion - gained > _SNAP * 0.5 * abs(tangent) * motion**2:
+    if snapped(force, after, motion, gained, scale):
         return _Push.failed("snapped", "the foil snapped to another equilibrium on the way")
     secant = float((after - force) / motion)
     return _Push(secant, dissipated_work(problem) - spent, found.status, found.message)
+
+
+def snapped(before: float, after: float, motion: float, gained: float, scale: float) -> bool:
+    """Whether a foil let go more energy on the way than the motion stores.
+
+    Between two forces on a straight line the foil gains the mean force times the motion. Where it
+    softens on the way it gains more. Where it stiffens it gains less, but never by as much as its
+    secant stores; a snap to another equilibrium knows no such bound.
+
+    Parameters
+    ----------
+    before, after : float
+        Force on the ring, N.
+    motion : float
+        m.
+    gained : float
+        Energy of the foil and what it has used up, J.
+    scale : float
+        Least stiffness to judge by, N/m.
+    """
+    secant = (after - before) / motion
+    lacking = 0.5 * (before + after) * motion - gained
+    return bool(lacking > 0.5 * max(scale, secant) * motion**2)
 
 
 def ring_force(problem: Problem, points: np.ndarray) -> np.ndarray:

@@ -121,10 +121,20 @@ class _Worker:
             traceback.print_exc()
             client.close()
             return
+        try:
+            self._selector.register(job.ended, selectors.EVENT_READ, partial(self._finish, job))
+            # A client has no more to say: this is its end, and takes its job with it.
+            self._selector.register(client, selectors.EVENT_READ, partial(self._cancel, job))
+        except OSError:  # of what can be watched there is no more
+            traceback.print_exc()
+            with suppress(KeyError):
+                self._selector.unregister(job.ended)
+            _given_up(job.process)
+            os.close(job.ended)
+            client.close()
+            return
         self._jobs.add(job)
-        self._selector.register(job.ended, selectors.EVENT_READ, partial(self._finish, job))
-        # A client has no more to say: this is its end, and takes its job with it.
-        self._selector.register(client, selectors.EVENT_READ, partial(self._cancel, job))
+        os.kill(job.process, _GO)
         with suppress(OSError):
             client.sendall(b"started\n")
 
@@ -160,13 +170,15 @@ def _started(client: socket.socket) -> _Job:
         for stream in streams:
             os.close(stream)
     try:
-        ended = os.pidfd_open(process)
+        return _Job(process, os.pidfd_open(process), client)
     except OSError:
-        os.kill(process, signal.SIGKILL)
-        os.waitpid(process, 0)
+        _given_up(process)
         raise
-    os.kill(process, _GO)
-    return _Job(process, ended, client)
+
+
+def _given_up(process: int) -> None:
+    os.kill(process, signal.SIGKILL)
+    os.waitpid(process, 0)
 
 
 def _forked(order: dict, streams: list[int]) -> int:

@@ -15,7 +15,7 @@ from foilstudy.bench.comparison import placed
 from foilstudy.bench.transfer_level import band_levels
 from foilstudy.measure.stiffness import DOF_NAMES
 from foilstudy.measure.stiffness.contacts import CONTACT_SPRINGS
-from foilstudy.present.statistics.cells import good, measured, realised
+from foilstudy.present.statistics.cells import closed_contacts, good, measured, realised
 from foilstudy.present.statistics.trust import ERROR_MAX, Trust, assess_trust
 
 if TYPE_CHECKING:
@@ -30,8 +30,8 @@ BESIDE = {
     "stiffness_contacts_ignored": "contacts open",
     "stiffness_contacts_stuck": "contacts stuck",
     "true_stiffness": "as it stands",
-    "stiffness_loading": "so, {0}",
-    "stiffness_unloading": "so, {1}",
+    "stiffness_loading": "as it stands, {0}",
+    "stiffness_unloading": "as it stands, {1}",
 }
 """Variables of a cube with another static stiffness of a direction, where it holds them, and what
 they are of."""
@@ -269,10 +269,8 @@ def _direction(cell: xr.Dataset, name: str, trust: Trust, counted: np.ndarray) -
 
 def _beside(cell: xr.Dataset, name: str) -> Iterator[tuple[str, Value]]:
     bracket = [f"stiffness_contacts_{kind}" for kind in CONTACT_SPRINGS]
-    if bracket[0] in cell:
-        ends = (measured(cell, each, direction=name) for each in (bracket[0], bracket[-1]))
-        if (np.subtract(*map(_by_seed, ends)) >= 0).all():
-            cell = cell.drop_vars(bracket)  # nothing touches
+    if "contact_pairs" in cell and not (closed_contacts(cell) > 0).any():
+        cell = cell.drop_vars(bracket)  # it is a point
     for variable, words in BESIDE.items():
         if variable in cell:
             value = Value.of_any_sign(_by_seed(measured(cell, variable, direction=name)))

@@ -200,8 +200,8 @@ def _static_words(facts: LinkFacts) -> str:
     if any(each.beside for each in facts.directions):
         text += (
             " Rows under axial and radial: on the mesh on which they crumpled, stress-free by what "
-            "closed contacts do; as it stands with its stresses and, so, by small motions of the "
-            "ring one way and the other."
+            "closed contacts do; as it stands: with its stresses, by its tangent and by small "
+            "motions of the ring one way and the other."
         )
     if all(each.amplitude is None for each in facts.directions):
         text += " The amplitude at which the stiffness has changed by 1 % was not computed."

@@ -12,7 +12,7 @@ from foilstudy.base.numerals import nominal, number_range, plural
 from foilstudy.measure.stiffness.contacts import CONTACT_SPRINGS
 from foilstudy.plot import style
 from foilstudy.present.report.spread import Spread
-from foilstudy.present.statistics.cells import measured, sound
+from foilstudy.present.statistics.cells import closed_contacts, measured
 from foilstudy.present.statistics.powerlaw import AS_IT_STANDS, SIMULATED
 
 __all__ = [
@@ -88,7 +88,7 @@ def bracket_rows(cube: xr.Dataset) -> list[BracketRow]:
     """Read the bracket of closed contacts; empty where nothing touches, or may."""
     if "contact_pairs" not in cube:
         return []
-    closed, first = _closed(cube), _first_hz(cube)
+    closed, first = closed_contacts(cube), _first_hz(cube)
     touching = closed > 0
     values = {
         kind: measured(cube, f"stiffness_contacts_{kind}").where(touching)
@@ -116,13 +116,6 @@ def bracket_rows(cube: xr.Dataset) -> list[BracketRow]:
             )
         )
     return rows
-
-
-def _closed(cube: xr.Dataset) -> xr.DataArray:
-    """Pairs of the foil and knots at the planes of the rings that are within the reach."""
-    closed = measured(cube, "contact_pairs")
-    at_rings = "contact_knots_at_rings"
-    return closed + measured(cube, at_rings).fillna(0) if at_rings in cube else closed
 
 
 def bracket_findings(cube: xr.Dataset) -> list[str]:
@@ -172,11 +165,13 @@ def bracket_picture(cube: xr.Dataset) -> tuple[str, bytes]:
 def _drawn(cell: xr.Dataset, kinds: list[str]):
     directions = list(map(str, cell["direction"].values))
     figure, axes = style.panel_grid(1, len(directions), (3.4, 2.9), (1.2, 0.9), sharex=True)
-    frequency = cell["frequency"].to_numpy()
+    frequency, touching = cell["frequency"].to_numpy(), closed_contacts(cell) > 0
     for ax, direction in zip(axes[0], directions):
         for j, (kind, colour) in enumerate(zip(kinds, style.ordered_colours(len(kinds)))):
             curves = np.abs(cell[_dynamic(kind)].sel(direction=direction, definition="relative"))
-            curves = curves.where(sound(cell)).transpose("seed", "frequency").to_numpy()
+            curves = (
+                curves.where(closed_contacts(cell) > 0).transpose("seed", "frequency").to_numpy()
+            )
             if np.isfinite(curves).any():
                 look = {"lw": 1.4, "ls": style.line_style(j), "label": WORDS[kind]}
                 style.median_band(ax, frequency, curves, colour, **look)

@@ -125,6 +125,18 @@ def good(cube, name: str, **selection):
     return usable(measured(cube, name, **selection))
 
 
+def closed_contacts(cube):
+    """Return how many pairs of the foil and knots at the planes of the rings are in contact.
+
+    Returns
+    -------
+    xarray.DataArray
+        With dimensions thickness, overlength, seed; of a cube with contact.
+    """
+    closed, at_rings = measured(cube, "contact_pairs"), "contact_knots_at_rings"
+    return closed + measured(cube, at_rings).fillna(0) if at_rings in cube else closed
+
+
 def energy_left(cube):
     """Return the elastic energy in each shape, J: what plastic strains take off is taken off.
 

@@ -128,8 +128,8 @@ def _without_secants(task: ResponseTask, values: dict) -> str:
     if not without:
         return ""
     return (
-        f"no stiffness of {' and '.join(without)} loading and unloading both, as the foil finds no "
-        "equilibrium nearby"
+        f"not both secants ({', '.join(without)}), as the foil snaps or finds no equilibrium near "
+        "where it stands"
     )
 
 
