@@ -41,7 +41,7 @@ def aims(
         "crumple of 500 µm, 0.17 m, 5 mm to 1e-8, s": (
             "1.0", f"{crumple} for 4 000 steps, {whole_one} for 8 000 and to rest", _page("Jobs"),
         ),
-        "the same by `quick`, equal to ten times its steps, s": (
+        "the same by `quick`, not told from ten times its steps, s": (
             "0.4", f"{looks.median():.2g}", "EPYC, beside other work",
         ),
         "step, 5, 2.5, 1.25 mm, ns an element": ("50, 50, 60", steps, _page("Kernels")),

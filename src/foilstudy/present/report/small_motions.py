@@ -169,9 +169,7 @@ def _drawn(cell: xr.Dataset, kinds: list[str]):
     for ax, direction in zip(axes[0], directions):
         for j, (kind, colour) in enumerate(zip(kinds, style.ordered_colours(len(kinds)))):
             curves = np.abs(cell[_dynamic(kind)].sel(direction=direction, definition="relative"))
-            curves = (
-                curves.where(closed_contacts(cell) > 0).transpose("seed", "frequency").to_numpy()
-            )
+            curves = curves.where(touching).transpose("seed", "frequency").to_numpy()
             if np.isfinite(curves).any():
                 look = {"lw": 1.4, "ls": style.line_style(j), "label": WORDS[kind]}
                 style.median_band(ax, frequency, curves, colour, **look)
