@@ -252,7 +252,7 @@ def test_what_is_said_of_both_ways_follows_their_signs(touching, tmp_path):
     ways = {"stiffness_loading": [900.0, np.nan], "stiffness_unloading": [2000.0, np.nan]}
     positive = altered(touching, tmp_path, **ways, true_stiffness=[1000.0, 1.0])
     assert (
-        "axially 0.90 times pushed together and 2.0 times pulled apart"
+        "axially 0.90 times pushed together and 2.00 times pulled apart"
         in secant_findings(positive)[-1]
     )
     negative = altered(touching, tmp_path, **ways, true_stiffness=[-1000.0, 1.0])

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from foilstudy.base.numerals import nominal, number_range, plural
+from foilstudy.base.numerals import fixed, nominal, number_range, plural
 from foilstudy.measure.stiffness.contacts import CONTACT_SPRINGS
 from foilstudy.plot import style
 from foilstudy.present.report.spread import Spread
@@ -213,8 +213,7 @@ def secant_findings(cube: xr.Dataset) -> list[str]:
             for way in ("loading", "unloading")
         ]
         if all(spreads):
-            ways = (number_range(each.lowest, each.highest) for each in spreads)
-            parts.append(_WAYS[direction].format(*ways))
+            parts.append(_WAYS[direction].format(*map(_ratios, spreads)))
     sentences = [
         "What yields or touches may resist one way less than the other. The foil is moved by a "
         "fiftieth of its thickness from where it stands, one way and the other; flow, contacts and "
@@ -226,6 +225,11 @@ def secant_findings(cube: xr.Dataset) -> list[str]:
             "configurations whose tangent is positive)."
         )
     return sentences
+
+
+def _ratios(spread: Spread) -> str:
+    """Near one, of which two decimals tell."""
+    return " to ".join(dict.fromkeys(fixed(each) for each in (spread.lowest, spread.highest)))
 
 
 def _places(cube: xr.Dataset) -> list[dict[str, float]]:
