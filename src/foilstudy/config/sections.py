@@ -633,7 +633,7 @@ class Dynamics(Section):
         "springs along their gaps as stiff as the barrier (`normal`), rigid ones (`rigid`), or "
         "rigid in all directions (`stuck`). Each takes one more reduction.",
         (),
-        max_length=3,
+        max_length=len(CLOSED_CONTACTS),
         strict=False,
     )
 

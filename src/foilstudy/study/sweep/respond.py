@@ -103,11 +103,7 @@ def _without_prestress(values: dict) -> str:
 
 
 def _without_amplitude(task: ResponseTask, values: dict) -> str:
-    without = [
-        direction
-        for direction, amplitude in zip(DIRECTIONS, values.get("amplitude_1_percent", ()))
-        if direction in task.linear_directions and np.isnan(amplitude)
-    ]
+    without = _unknown(task.linear_directions, values, "amplitude_1_percent")
     if not without:
         return ""
     return (
@@ -117,20 +113,22 @@ def _without_amplitude(task: ResponseTask, values: dict) -> str:
 
 
 def _without_secants(task: ResponseTask, values: dict) -> str:
-    secants = zip(
-        DIRECTIONS, values.get("stiffness_loading", ()), values.get("stiffness_unloading", ())
-    )
-    without = [
-        direction
-        for direction, *both in secants
-        if direction in task.one_sided and np.isnan(both).any()
-    ]
+    without = _unknown(task.one_sided, values, "stiffness_loading", "stiffness_unloading")
     if not without:
         return ""
     return (
         f"not both secants ({', '.join(without)}), as the foil snaps or finds no equilibrium near "
         "where it stands"
     )
+
+
+def _unknown(asked: Sequence[str], values: dict, *names: str) -> list[str]:
+    """Directions that were asked for and of which one of some quantities is NaN."""
+    return [
+        direction
+        for k, direction in enumerate(DIRECTIONS)
+        if direction in asked and any(np.isnan(values[name][k]) for name in names)
+    ]
 
 
 def _without_contacts(task: ResponseTask, values: dict) -> str:
